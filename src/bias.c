@@ -4,7 +4,7 @@
 #include "flight/expneg.h"
 
 // test: bias_takes_a_state_for_one_up_to_2000
-#define STATE_MAX 2000.0f // m/s2 and m/s: more than all of a state together can be
+#define STATE_MAX 2000.0f // m/s2 and m/s: more than the members of a state can add up to
 
 void bias_start(bias_t *s, v3_t pos_m, v3_t vel_mps) {
   *s = (bias_t){.pos_last_m = pos_m, .vel_slow_mps = vel_mps};
@@ -18,7 +18,8 @@ v3_t bias_free_velocity(const bias_t *s, v3_t vel_mps) {
   return v3_sub(vel_mps, s->vel_off_mps);
 }
 
-// Whatever is not finite or far out shows in the sum. A wrong pos_last_m is a jump.
+// True if no bit flip shows: a member that is not finite or far out shows in the sum. A wrong pos_last_m is
+// treated as a jump.
 static bool is_state(const bias_t *s) {
   const v3_t found = v3_add(v3_add(s->bias_mps2, s->first_mps2), s->vel_off_mps);
   return v3_within(v3_add(found, v3_add(s->acc_slow_mps2, s->vel_slow_mps)), STATE_MAX);
@@ -40,7 +41,7 @@ void bias_tune(bias_coef_t *c, const bias_param_t *p, float period_s) {
 }
 
 float bias_take(bias_t *s, const bias_param_t *p, float more_mps2) {
-  if (!is_state(s) || !f_finite(more_mps2)) return 0.0f; // the next step mends the state
+  if (!is_state(s) || !f_finite(more_mps2)) return 0.0f; // the next step repairs the state
   const float held_mps2 = f_clamp(s->bias_mps2.z + more_mps2, -p->max_mps2, p->max_mps2);
   const float taken_mps2 = held_mps2 - s->bias_mps2.z;
   s->bias_mps2.z = held_mps2;
@@ -66,7 +67,7 @@ status_t bias_step(bias_t *s, const bias_param_t *p, const bias_coef_t *c, v3_t 
   if (!v3_within(off_mps, BIAS_JUMP_MPS)) return ST_OK;
 
   const float share = c->share;
-  // The change of the change of position is of one interval ago: so is <a> before this sample.
+  // The second difference of the position is of one interval ago; so is <a> before it takes this sample.
   const v3_t motion_mps2 = v3_scale(share * c->per_s, v3_sub(rate_mps, s->vel_slow_mps));
   s->first_mps2 =
       bounded(nearer_to(s->first_mps2, share, v3_sub(s->acc_slow_mps2, motion_mps2)), p->max_mps2);

@@ -13,13 +13,14 @@ static unsigned ticks_ago(const ceiling_t *s, float age_s) {
   return (unsigned)f_clamp(age_s / s->period_s + 0.5f, 0.0f, (float)(CEILING_HISTORY - 1));
 }
 
-// Within the ring whatever `newest` is. Where a bit of it flipped, the climbs are those of other ticks until
-// the ring has gone round, and never foreign memory. Unsigned: ticks may be more than newest.
+// Returns an index within the ring, whatever `newest` is: after a flipped bit in it the climbs are of other
+// ticks until the ring has gone round, but never from outside the ring. Unsigned, because ticks may exceed
+// newest.
 static unsigned at(const ceiling_t *s, unsigned ticks) {
   return (s->newest - ticks) % CEILING_HISTORY;
 }
 
-// What the vehicle climbed in the last age_s.
+// Returns the climb of the last age_s.
 static float climb_since_m(const ceiling_t *s, float age_s) {
   const unsigned ticks = ticks_ago(s, age_s);
   float climb_m = 0.0f;
@@ -37,7 +38,7 @@ float ceiling_up(const ceiling_t *s, float age_s) {
   return s->tilt_known ? PICK(s->ups, at(s, ticks_ago(s, age_s))) : 1.0f;
 }
 
-// Where `is` holds; so below (flight/v3.h).
+// Sets the estimate where `is` holds; so do the functions below (flight/v3.h).
 static void set(ceiling_t *s, const ceiling_param_t *p, bool is, float zc_m) {
   s->zc_m = EITHER(is, f_max(zc_m, 0.0f), s->zc_m);
   s->known = EITHER(is, s->zc_m < p->far_m, s->known);
@@ -59,7 +60,7 @@ void ceiling_predict_over(ceiling_t *s, const ceiling_param_t *p, float climb_m,
   s->blind_s += (float)(periods - steps) * s->period_s;
 }
 
-// Three samples in a row that agree overrule an estimate that the gate would keep for ever.
+// Takes a rival. Three in a row that agree overrule an estimate that the gate would keep for ever.
 static void take_rival(ceiling_t *s, const ceiling_param_t *p, bool is, float zc_m) {
   const bool agrees = s->rivals > 0 && fabsf(zc_m - s->rival_m) <= CEILING_AGREE_M;
   const int rivals = EITHER(agrees, s->rivals + 1, 1);
@@ -80,7 +81,7 @@ void ceiling_take(ceiling_t *s, const ceiling_param_t *p, bool is, float range_m
   s->seen_m = EITHER(is, now_m, s->seen_m);
   const bool at_floor = range_m < p->floor_m, beyond_gate = range_m >= p->near_m;
   const bool gated = s->known && s->zc_m < p->near_m;
-  // Beyond the gate by noise alone is no contradiction; at the floor, three times, is.
+  // A sample beyond the gate by noise alone does not contradict; samples at the floor do.
   const bool contradicts = is && EITHER(gated, beyond_gate && now_m > s->zc_m + CEILING_AGREE_M,
                                         s->known && (at_floor || now_m > s->zc_m + CEILING_JUMP_M));
   const bool counts = is && !contradicts && !(gated || at_floor || (!s->known && !beyond_gate));
@@ -88,7 +89,7 @@ void ceiling_take(ceiling_t *s, const ceiling_param_t *p, bool is, float range_m
   s->rivals = EITHER(is && !contradicts, 0, s->rivals);
   if (!ANY(counts)) return;
   s->blind_s = EITHER(counts, 0.0f, s->blind_s);
-  const bool jumps = now_m < s->zc_m - CEILING_JUMP_M; // near is safe
+  const bool jumps = now_m < s->zc_m - CEILING_JUMP_M; // a nearer one is safe to believe
   set(s, p, counts, EITHER(s->known && !jumps, s->zc_m + p->gain * (now_m - s->zc_m), now_m));
 }
 

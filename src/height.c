@@ -3,23 +3,24 @@
 
 #include "flight/bounds.h"
 
-// Each of these, and of the header's, moves a row of the_height_filters_numbers_are_what_it_does.
+// Each of these constants, and of the header's, is pinned by a row of
+// the_height_filters_numbers_are_what_it_does.
 #define ACC_DELAY_S  0.0075f // of the accelerometer's filter, as in the header
-#define FADE_S       0.25f  // from one height to the other: ten times the outer loop's tick and more, no step
-#define MEAN_S       0.25f  // of the mean squares: a knock passes, a contact does not
-#define DOWN_S       0.025f // from a range sample to the next
-#define CURVE_NEAR_M 0.005f // so far the curve is a straight line
-#define RANGE_MAX_M  2.0f   // beyond, the range sensor's noise grows
-#define CONE_SIN     0.1305f // of the downward sensor's view, 7.5 degrees to a side
+#define FADE_S       0.25f   // from one height to the other: over ten ticks of the outer loop, so no step
+#define MEAN_S       0.25f   // averaging time of the mean squares: a knock passes, a contact does not
+#define DOWN_S       0.025f  // from a range sample to the next
+#define CURVE_NEAR_M 0.005f  // over this distance the curve is a straight line
+#define RANGE_MAX_M  2.0f    // beyond, the range sensor's noise grows
+#define CONE_SIN     0.1305f // of half the downward sensor's view, 7.5 degrees
 #define CONE_COS     sqrtf(1.0f - CONE_SIN * CONE_SIN)
-#define WILD_ROW     3 // one sample beyond belief is a speck, so many in a row are another floor
-// What the estimator may be wrong by, and what nobody knows yet: variances.
+#define WILD_ROW     3 // one rejected sample is a speck, this many in a row are another floor
+// Initial variances: of the estimator's errors, and of what is not known yet.
 #define BEGIN_H_VAR 1e-5f // 3 mm
 #define BEGIN_W_VAR 1e-3f // 3 cm/s
 #define BEGIN_D_VAR 0.25f // 0.5 m/s2: a thrust map that is 5 % wrong
 #define BEGIN_B_VAR 4e-3f // 0.06 m/s2: what a calibration on the floor leaves
 
-// From the estimator, with what it may be wrong by. What is known of the bias stays, and what is flown fades.
+// Restarts from the estimator, with its variances. A known bias is kept, and what is flown fades out.
 static void begin(height_t *s, const height_in_t *in) {
   const float bias_mps2 = s->started ? s->x[HEIGHT_B] : in->bias_mps2;
   *s = (height_t){
@@ -43,7 +44,8 @@ static bool usable(const height_in_t *in) {
          quat_plausible(in->q_wb) && in->mass_kg > 0.0f;
 }
 
-// The motors behind the command's delay: over the last period it was partly this one, partly those before.
+// Advances the motors by a period. Because of the command's delay, they received partly this command, partly
+// those before.
 static void turn_motors(height_t *s, float delay_s, float motor_share, float thrust_N) {
   const float late = (HEIGHT_COMMAND_S + delay_s) / HEIGHT_S;
   const int whole = late < 1.0f ? 0 : late < 2.0f ? 1 : 2;
@@ -55,15 +57,15 @@ static void turn_motors(height_t *s, float delay_s, float motor_share, float thr
   s->thrust_N += motor_share * (sent_N - s->thrust_N);
 }
 
-// The thrust ratio where the vehicle will be. Where the curve does not fall it is no ceiling's (the fitted
-// bells rise again from 8 cm on), and what there is is the ground's.
+// Returns the thrust ratio where the vehicle will be after the step. Where the curve does not fall it is not
+// a ceiling's (the fitted bells rise again from 8 cm on), and the ground's share alone remains.
 static float ratio_at(const height_t *s, const height_in_t *in) {
   if (!(in->at.slope_per_m < 0.0f) || !f_finite(in->ceiling_z_m)) return 1.0f + in->ground_excess;
   const float zc_m = in->ceiling_z_m - (s->x[HEIGHT_H] + s->off_m + HEIGHT_S * s->x[HEIGHT_W]);
   return in->at.ratio + in->at.slope_per_m * f_bound(zc_m - in->zc_m, CURVE_NEAR_M);
 }
 
-// State and covariance one step later, at the acceleration acc.
+// Predicts state and covariance one step later, at the acceleration acc_mps2.
 static void predict(height_t *s, const height_param_t *p, float acc_mps2, float k_per_s2) {
   const float mean_mps2 = 0.5f * (s->acc_mps2 + acc_mps2), kdt = HEIGHT_S * k_per_s2;
   s->x[HEIGHT_H] += HEIGHT_S * (s->x[HEIGHT_W] + 0.5f * HEIGHT_S * mean_mps2);
@@ -79,14 +81,14 @@ static void predict(height_t *s, const height_param_t *p, float acc_mps2, float 
     P[i][HEIGHT_H] = h + HEIGHT_S * w;
     P[i][HEIGHT_W] = w + kdt * h + HEIGHT_S * P[i][HEIGHT_D];
   }
-  for (int i = 1; i < HEIGHT_N; i++) // to the bit
+  for (int i = 1; i < HEIGHT_N; i++) // symmetric to the bit
     for (int j = 0; j < i; j++) P[j][i] = P[i][j];
   P[HEIGHT_W][HEIGHT_W] += HEIGHT_S * HEIGHT_CLIMB_WALK * HEIGHT_CLIMB_WALK;
   P[HEIGHT_D][HEIGHT_D] += HEIGHT_S * p->walk_mps2 * p->walk_mps2;
   P[HEIGHT_B][HEIGHT_B] += HEIGHT_S * HEIGHT_BIAS_WALK * HEIGHT_BIAS_WALK;
 }
 
-// x += K e, P -= K H' P, where PH is P H and var is H' P H + R.
+// Takes one measurement: x += K e, P -= K H' P, where PH is P H and var is H' P H + R.
 static void take(height_t *s, const float PH[HEIGHT_N], float var, float e) {
   const float per_var = 1.0f / var;
   for (int i = 0; i < HEIGHT_N; i++) {
@@ -106,7 +108,7 @@ static void take_acc(height_t *s, float e_mps2, float k_per_s2) {
   take(s, PH, var, e_mps2);
 }
 
-// The firmware's view of the slant: the sensor sees the nearest point within its cone.
+// Returns height over slant range, by the firmware's model: the sensor sees the nearest point in its cone.
 static float slant(float up) {
   if (up >= CONE_COS) return 1.0f;
   return up * CONE_COS + sqrtf(f_max(1.0f - up * up, 0.0f)) * CONE_SIN;
@@ -152,7 +154,7 @@ static bool fits(const height_t *s, const height_in_t *in) {
          fabsf(s->x[HEIGHT_W] - in->climb_mps) <= HEIGHT_APART_MPS;
 }
 
-// A bit of wait may have flipped.
+// Returns `wait` within its bounds, as a bit of it may have flipped.
 static int within(int wait) {
   return EITHER(wait < HEIGHT_FIT, HEIGHT_FIT, EITHER(wait > HEIGHT_FIT_MAX, HEIGHT_FIT_MAX, wait));
 }
@@ -161,7 +163,7 @@ static bool is_flown(const height_t *s) {
   return s->fit >= within(s->wait);
 }
 
-// One more step that fits, or one that does not.
+// Counts one more step that fits, or one that does not.
 static void judge(height_t *s, bool good) {
   s->wait = within(s->wait);
   if (s->fit >= HEIGHT_TRUST * s->wait) s->fit = s->wait = within(s->wait / 2);

@@ -7,7 +7,7 @@ void hold_init(hold_t *s) {
   *s = (hold_t){.ceiling_z_m = NAN};
 }
 
-// The estimate is slow: it may lag behind what has changed, and one stray sample may lift it far.
+// Asks estimate and last sample: the estimate lags behind changes, and one stray sample may lift it far.
 static bool is_settled_far(const hold_t *s, const ceiling_t *c) {
   return s->samples >= HOLD_SAMPLES && s->against == 0 && c->zc_m > HOLD_BEYOND_M &&
          c->seen_m > HOLD_BEYOND_M;
@@ -20,7 +20,7 @@ void hold_step(hold_t *s, const ceiling_t *c, float z_m, float period_s, int32_t
   s->ceiling_z_m = EITHER(follows, z_m + c->zc_m, s->ceiling_z_m);
 }
 
-// True once samples have put the ceiling elsewhere for long enough.
+// True once samples have contradicted the height for long enough.
 static bool refuted(hold_t *s, bool is, float seen_z_m, float seen_m) {
   const float off_m = seen_z_m - s->ceiling_z_m; // NaN where no ceiling is known: no contradiction
   const bool against = off_m < -HOLD_MARGIN_M || (off_m > HOLD_MARGIN_M && seen_m > HOLD_ROOM_M);
@@ -41,7 +41,7 @@ void hold_take(hold_t *s, const ceiling_t *c, bool is, float z_m, float climb_mp
                     fabsf(seen_z_m - s->ceiling_z_m) <= HOLD_NOISE_M;
   const bool counts = taken && (s->samples < HOLD_SAMPLES || more);
   if (!ANY(counts)) return;
-  const int before = EITHER(s->samples < 0, 0, s->samples); // its sign flipped
+  const int before = EITHER(s->samples < 0, 0, s->samples); // the sign bit flipped
   const int samples = EITHER(before < HOLD_MEAN_SAMPLES, before + 1, before);
   const float z_w_m = EITHER(samples == 1, seen_z_m, s->ceiling_z_m);
   s->samples = EITHER(counts, samples, s->samples);

@@ -8,7 +8,7 @@
 #define AT_REST                                                                                              \
   { .up_w = {0.0f, 0.0f, 1.0f}, .at = {.ratio = 1.0f}, .ceiling_z_m = NAN }
 
-// From the instant of the filtered signals until the thrust that is commanded now is there.
+// Returns the time from the instant of the filtered signals until the thrust commanded now is reached.
 static float lag_s(const flight_param_t *p, float quick, float period_s) {
   return lpf2_delay_s(p->cutoff_Hz) + p->motor_tau_s / quick + 0.5f * period_s;
 }
@@ -32,8 +32,8 @@ status_t outer_init(outer_t *f, const flight_param_t *p, float period_s) {
   TRY(params_check(p));
   sync_coef_t coef;
   TRY(sync_tune(&coef, p->cutoff_Hz, p->motor_tau_s, period_s));
-  // From here on nothing fails: a whole set's weights are ones that can be learned from. No second state: it
-  // would not fit onto the vehicle's stack.
+  // Nothing fails from here on, as the learner can start from the weights of any checked set. *f is set in
+  // place, because a second state would not fit onto the vehicle's stack.
   memset(f, 0, sizeof *f);
   f->coef = coef;
   f->param = *p;
@@ -78,7 +78,7 @@ static status_t check_in(const outer_in_t *in) {
   return ST_OK;
 }
 
-// Starts as if the first sample had been there for ever, so that taking over in flight is no bump.
+// Starts as if the first sample had always been there, so that taking over in flight causes no bump.
 static APART void start(outer_t *f, const outer_in_t *in, const sync_in_t *signals) {
   sync_start(&f->sync, signals);
   const v3_t before_m = v3_sub(in->pos_w_m, v3_scale(f->coef.period_s, in->vel_w_mps));
@@ -89,15 +89,15 @@ static APART void start(outer_t *f, const outer_in_t *in, const sync_in_t *signa
 }
 
 // test: outer_takes_a_last_height_that_is_none_for_no_reset
-#define CLIMB_MAX_M (6.0f * BOUND_POS_M) // the height is that of the input, less jumps of twice its bound
+#define CLIMB_MAX_M (6.0f * BOUND_POS_M) // twice: a height within its bound, less jumps of twice that
 
-// The climb since the last good input, `ticks` periods ago. A reset of the height estimate is no climb.
+// Returns the climb since the last good input, `ticks` periods ago. A reset of the height is not a climb.
 static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   const float by_height_m = in->pos_w_m.z - f->height_last_m;
   const float by_velocity_m = in->vel_w_mps.z * f->coef.period_s * ticks;
   f->height_last_m = in->pos_w_m.z;
   if (fabsf(by_height_m - by_velocity_m) <= BOUND_HEIGHT_JUMP_M * ticks) return by_height_m;
-  if (!(fabsf(by_height_m) <= CLIMB_MAX_M)) return by_velocity_m; // of the last height a bit flipped
+  if (!(fabsf(by_height_m) <= CLIMB_MAX_M)) return by_velocity_m; // a bit of the last height flipped
   count(f, ST_JUMP);
   bias_shift(&f->bias, (v3_t){.z = by_height_m - by_velocity_m});
   f->hold.ceiling_z_m += by_height_m - by_velocity_m;
@@ -105,8 +105,8 @@ static float climb_m(outer_t *f, const outer_in_t *in, float ticks) {
   return by_velocity_m;
 }
 
-// A sensor without a time stamp gives the last value again where it has no new one: after a climb the same
-// value is no measurement.
+// True if the range is a repeated value: a sensor without time stamps gives its last value while it has no
+// new one, so an unchanged value after a climb is not a measurement.
 static bool is_repeated(outer_t *f, const outer_in_t *in) {
   const bool is = in->range_new && in->range_m > 0.0f && in->range_m <= CEILING_RANGE_MAX_M;
   const bool same = in->range_m == f->range_last_m, other = is && !same;
@@ -137,7 +137,7 @@ static APART void find_ceiling(outer_t *f, const outer_in_t *in) {
   hold_step(&f->hold, &f->ceiling, in->pos_w_m.z, f->coef.period_s * (float)ticks, f->param.hold);
 }
 
-// After missed periods the step is a longer one.
+// Runs the bias observer; after missed periods its step is longer.
 static status_t find_bias(outer_t *f, const outer_in_t *in, v3_t acc_w_mps2) {
   bias_coef_t late;
   if (f->missed > 0) bias_tune(&late, &f->param.bias, f->coef.period_s * (1.0f + (float)f->missed));
@@ -150,7 +150,7 @@ float outer_take_bias(outer_t *f, float more_mps2) {
   if (!ANY(takes)) return 0.0f;
   float taken_mps2 = 0.0f;
   FOR_WHOM(takes, &f->bias) taken_mps2 = bias_take(&f->bias, &f->param.bias, more_mps2);
-  taken_mps2 = EITHER(takes, taken_mps2, 0.0f); // at its bound nothing is left to do
+  taken_mps2 = EITHER(takes, taken_mps2, 0.0f); // 0 also at the observer's bound
   FOR_WHOM(taken_mps2 != 0.0f, &f->sync) sync_shift_acc(&f->sync, taken_mps2);
   return taken_mps2;
 }
@@ -165,7 +165,7 @@ void outer_scrub(outer_t *f, const outer_in_t *in) {
   if (f->started && !sync_good(&f->sync)) start_signals(f, in);
 }
 
-// What can be learned from this tick; the learner decides whether it is.
+// Keeps this tick's sample for the learner, which decides whether to use it.
 static APART void observe(outer_t *f, const sync_out_t *x) {
   const bool known = f->ceiling.known;
   const float weight_N = f->param.pos.mass_kg * GRAVITY_MPS2;
@@ -198,9 +198,10 @@ typedef struct {
   float climb_mps;
 } wanted_t;
 
-// Not nearer to the ceiling than ceil.min, whatever was asked for, be it a height, a velocity or an
-// acceleration: upwards no more than a set point that rests there asks for. Who asks for a height beyond
-// rests OUTER_CLIP_M below, as no one holds a limit to the millimetre.
+// Returns the wanted acceleration and climb rate, not nearer to the ceiling than ceil.min, whether a height,
+// a velocity or an acceleration was asked for: upwards at most what a set point at rest at that limit asks
+// for. A height beyond the limit is flown up to OUTER_CLIP_M below it, as no vehicle holds a limit to the
+// millimetre.
 static wanted_t wanted(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   const pos_indi_param_t *p = &f->law;
   const pos_setpoint_t *sp = &in->setpoint;
@@ -217,13 +218,14 @@ static wanted_t wanted(const outer_t *f, const outer_in_t *in, v3_t vel_mps) {
   return w;
 }
 
-// What the increment is made of.
+// Inputs of the increment.
 typedef struct {
-  v3_t error_mps2; // of the acceleration
-  float dzc_m, most_N;
+  v3_t error_mps2;     // of the acceleration
+  float dzc_m, most_N; // change of the distance; largest increment of the thrust
 } aim_t;
 
-// What carries more than it accelerates pushes against something, and does not push harder than ceil.push.
+// Returns the largest increment of the thrust. Near a ceiling, thrust beyond what accelerates the vehicle is
+// a push against it, which is limited to ceil.push.
 static float most_N(const outer_t *f, float ratio, float climb_mps) {
   const bool reaches = f->ceiling.known && f->ceiling.zc_m < OUTER_TOUCH_M && climb_mps > -OUTER_STILL_MPS;
   if (!reaches || f->param.pos.law == LAW_THESIS) return f->param.step_max_N;
@@ -233,9 +235,9 @@ static float most_N(const outer_t *f, float ratio, float climb_mps) {
 
 static APART aim_t aim(const outer_t *f, const outer_in_t *in, const sync_out_t *x, float ratio) {
   v3_t vel = bias_free_velocity(&f->bias, in->vel_w_mps);
-  vel.z -= f->less_mps; // of -0 the sign stays, too
+  vel.z -= f->less_mps; // keeps the sign of -0, too
   wanted_t w = wanted(f, in, vel);
-  w.acc_mps2.z += f->ground.pull_per_s2 * (f->lag_s * vel.z); // it will be gone
+  w.acc_mps2.z += f->ground.pull_per_s2 * (f->lag_s * vel.z); // ground effect lost by then
   return (aim_t){.error_mps2 = v3_sub(w.acc_mps2, x->acc_w_mps2),
                  .dzc_m = pos_indi_nearing_m(&f->law, vel.z, w.climb_mps, f->lag_s),
                  .most_N = most_N(f, ratio, vel.z)};

@@ -31,7 +31,7 @@ static float sin_small(float x) {
 }
 
 static v3_t at_limit(v3_t up, float side2, float side_max) {
-  if (!(side2 > 1e-12f)) return (v3_t){0.0f, 0.0f, 1.0f}; // upside down: any way up is as good
+  if (!(side2 > 1e-12f)) return (v3_t){0.0f, 0.0f, 1.0f}; // upside down: all directions are equally good
   const float k = side_max / sqrtf(side2);
   return (v3_t){k * up.x, k * up.y, sqrtf(1.0f - side_max * side_max)};
 }
@@ -49,8 +49,7 @@ static v3_t limit_tilt(v3_t up, float tilt_max_rad) {
 }
 
 pos_command_t pos_indi_command(const pos_indi_param_t *p, quat_t q_wb, float thrust_N, pos_step_t step) {
-  // A small rotation turns the body's up axis by (pitch, -roll, 0); made unit again it is exact to third
-  // order.
+  // A small rotation turns the body's up axis by (pitch, -roll, 0); normalised, it is exact to third order.
   const v3_t up = quat_to_world(q_wb, (v3_t){step.pitch_rad, -step.roll_rad, 1.0f});
   const float wanted_N = thrust_N + step.thrust_N;
   const float given_N = f_clamp(wanted_N, 0.0f, p->thrust_max_N);

@@ -30,14 +30,14 @@ static void restart(rls_t *s, float p0) {
     for (int j = 0; j < RBF_N; j++) s->P[i][j] = i == j ? p0 : 0.0f;
 }
 
-// Only lambda/p0 matters: p0 is the unit of P.
+// Scales P down to the new p0. Only lambda/p0 matters: p0 is the unit of P.
 static void lower(rls_t *s, float p0) {
   const float k = p0 / s->p0;
   for (int i = 0; i < RBF_N; i++)
     for (int j = 0; j < RBF_N; j++) s->P[i][j] *= k;
 }
 
-// A covariance has a diagonal between 0 and p0, and P_ij^2 <= P_ii P_jj; a' P a of a sample tells the rest.
+// True if P can be a covariance: diagonal between 0 and p0, P_ij^2 <= P_ii P_jj, and a sample's a' P a >= 0.
 static bool is_covariance(const rls_t *s, float p0, float aPa) {
   for (int i = 0; i < RBF_N; i++) {
     if (!(s->P[i][i] > 0.0f && s->P[i][i] <= 1.1f * p0)) return false;
@@ -71,7 +71,7 @@ status_t rls_update(rls_t *s, const rls_param_t *p, const float a[RBF_N], float 
   const float aPa = dot(a, Pa);
   if (!is_covariance(s, p->p0, aPa) || !in_box(&s->theta)) {
     restart(s, p->p0);
-    // Its bound would be no better guess: weights are a few tenths.
+    // To 0, as the bound would be no better guess: weights are a few tenths.
     for (int i = 0; i < RBF_N; i++)
       if (!(fabsf(s->theta.w[i]) <= RLS_WEIGHT_MAX)) s->theta.w[i] = 0.0f;
     return ST_SINGULAR;
@@ -87,7 +87,7 @@ status_t rls_update(rls_t *s, const rls_param_t *p, const float a[RBF_N], float 
   for (int i = 0; i < RBF_N; i++) {
     // Both triangles get the same product, so that P stays symmetric to the bit.
     for (int j = 0; j <= i; j++) s->P[i][j] = s->P[j][i] = s->P[i][j] - Pa[i] * Pa[j] * inv_s;
-    // Bounded: a walk without an end is wind-up.
+    // Bounded: an endless walk would be wind-up.
     if (p->form == RLS_RANDOM_WALK) s->P[i][i] = f_min(s->P[i][i] + p->q, p->p0);
   }
   if (s->count < UINT_MAX) s->count++;

@@ -1,9 +1,9 @@
 // sync.c - signals through one and the same filter.
 #include "flight/sync.h"
 
-// No units: more than all of its filters together can hold. A flipped bit rather makes 1e30 of a state than
-// no number, and from there a filter takes a hundred of its time constants back. test:
-// sync_knows_a_state_that_can_be
+// Bound of the sum of all filter states, in mixed units: more than they can add up to. A flipped bit more
+// often gives 1e30 than NaN, and from 1e30 a filter needs a hundred time constants to recover.
+// test: sync_knows_a_state_that_can_be
 #define STATE_MAX 2e4f
 
 status_t sync_tune(sync_coef_t *c, float cutoff_Hz, float motor_tau_s, float period_s) {
@@ -35,7 +35,7 @@ void sync_start(sync_t *s, const sync_in_t *in) {
 
 bool sync_good(const sync_t *s) {
   float sum = thrust_sum(&s->thrust);
-  // Else nothing steps it, and it starts afresh.
+  // While the distance is not known, nothing steps its filter, and it will restart.
   sum = EITHER(s->distance_known, sum + lpf2_sum(&s->distance), sum);
   for (int i = 0; i < 3; i++) sum += lpf2_sum(&s->acc_w[i]);
   for (int i = 0; i < 4; i++) sum += lpf2_sum(&s->att[i]);

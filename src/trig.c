@@ -7,7 +7,7 @@
 
 sincos_t trig_sincos(float x_rad) {
   if (!(fabsf(x_rad) <= 1000.0f)) return (sincos_t){0.0f, 1.0f};
-  // To the nearest quarter turn; pi/2 in two parts, so that the rest keeps its digits.
+  // Reduced by the nearest quarter turns; pi/2 in two parts, so that the remainder keeps its digits.
   const float quarters = x_rad * 0.63661977f;
   const int n = (int)(quarters + (quarters < 0.0f ? -0.5f : 0.5f));
   const float r = (x_rad - (float)n * 1.5703125f) - (float)n * 4.8382679e-4f;
@@ -25,7 +25,7 @@ sincos_t trig_sincos(float x_rad) {
   }
 }
 
-// Abramowitz and Stegun 4.4.49, error 1e-5 before rounding; 0..1.
+// arctan(x) for x in 0..1: Abramowitz and Stegun 4.4.49, error 1e-5 before rounding.
 static float arctan(float x) {
   const float x2 = x * x;
   return x * (0.9998660f + x2 * (-0.3302995f + x2 * (0.1801410f + x2 * (-0.0851330f + x2 * 0.0208351f))));

@@ -31,9 +31,10 @@ typedef struct {
 #define CEILING_RANGE_MIN_M 0.01f // the sensor ends at 4 cm: a smaller value is in another unit
 #define CEILING_RANGE_MAX_M 4.0f  // the sensor's range; it gives 32.767 m for "no echo"
 // A sample that is nearer than the estimate by this is taken at once; one that is farther by this is a rival.
-#define CEILING_JUMP_M      0.05f
-#define CEILING_AGREE_M     0.02f // rivals this near to their mean agree; rivals of a gated estimate begin here
-#define CEILING_AGREE_COUNT 3     // agreeing samples that overrule the estimate
+#define CEILING_JUMP_M 0.05f
+// Rivals within this of their mean agree; a gated estimate has rivals that are farther than it by this.
+#define CEILING_AGREE_M     0.02f
+#define CEILING_AGREE_COUNT 3 // agreeing samples that overrule the estimate
 
 typedef struct {
   float zc_m;     // 0..far_m: propeller plane to ceiling; valid only while `known`

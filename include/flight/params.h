@@ -256,14 +256,14 @@ const param_row_t *params_find(const char *name);
 
 float params_get(const flight_param_t *p, const param_row_t *row);
 
-// ST_BAD_PARAM: NaN, out of min..max, or a fraction for a PARAM_INT; *p is kept.
+// Sets one parameter. ST_BAD_PARAM: NaN, out of min..max, or a fraction for a PARAM_INT; *p is kept.
 MUST_CHECK status_t params_set(flight_param_t *p, const param_row_t *row, float value);
 
 #define PARAMS_CUTOFF_MIN_HZ     0.1f // of indiPos.cutoff, unless it is 0
 #define PARAMS_ATT_CUTOFF_MIN_HZ 0.5f // of indiAtt.cutoff, unless it is 0
 
-// ST_BAD_PARAM: some parameter is out of its range, or two contradict each other (ceil.floor > ceil.near,
-// rls.zMin >= rls.zMax). The ranges alone keep rls.q <= rls.p0 and ceil.near < ceil.far.
+// Checks a whole set. ST_BAD_PARAM: a parameter is out of its range, or two contradict each other (ceil.floor
+// > ceil.near, rls.zMin >= rls.zMax). The ranges alone keep rls.q <= rls.p0 and ceil.near < ceil.far.
 MUST_CHECK status_t params_check(const flight_param_t *p);
 
 #endif
