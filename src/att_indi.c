@@ -1,8 +1,8 @@
 // att_indi.c - inner loop: attitude to body torques.
 #include "flight/att_indi.h"
 
-// No units: of the filters' states the angular accelerations are the largest, and a gyro that goes from one
-// end to the other in each call makes 34,500 rad/s2 of them, four times on each axis.
+// Bound of the sum of all states, in mixed units. The angular accelerations are the largest: a gyro that goes
+// from one end to the other in each call gives 34,500 rad/s2, in four states on each axis.
 // test: inner_loop_knows_a_state_that_can_be
 #define STATE_MAX 1e6f
 
@@ -12,13 +12,12 @@ void att_indi_reset(att_indi_t *s) {
 
 bool att_indi_good(const att_indi_t *s) {
   const v3_t now = s->torque_model_Nm;
-  float sum = now.x + now.y + now.z; // the rest is of the last step, and shows in the filters after the next
+  float sum = now.x + now.y + now.z; // the rest is of the last step, and reaches the filters in the next
   for (int i = 0; i < 3; i++) sum += lpf2_sum(&s->acc[i]) + lpf2_sum(&s->torque[i]);
   return fabsf(sum) <= STATE_MAX;
 }
 
-// A rotation about z by half the heading's angle, from the half-angle formulas; of the two, the one that does
-// not cancel.
+// Returns the rotation about z by the heading, from the half-angle formula in which no digits cancel.
 static quat_t turned(sincos_t heading) {
   if (heading.cos >= 0.0f) {
     const float w = sqrtf(0.5f * (1.0f + heading.cos));
@@ -68,12 +67,12 @@ static float wanted_rate(const att_indi_param_t *p, float rate_radps) {
   return f_clamp(rate_radps, -p->rate_max_radps, p->rate_max_radps);
 }
 
-// The ceiling's torque that this rate brings, about an axis with this gain (inertia x quick x kd).
+// Returns the ceiling term at this rate, about an axis with this gain (inertia x quick x kd).
 static float ceiling_Nm(const att_indi_in_t *in, float gain_Nms, float rate_radps) {
   return f_clamp(in->ceiling_Nms, -ATT_INDI_CEILING_MAX * gain_Nms, 0.0f) * rate_radps;
 }
 
-// What is held against about one axis beyond `most_Nm`: exactly 0 within.
+// Returns the external torque about one axis beyond `most_Nm`: exactly 0 within.
 static float beyond_Nm(float held_Nm, float most_Nm) {
   return held_Nm - f_clamp(held_Nm, -most_Nm, most_Nm);
 }
@@ -90,7 +89,7 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
       p->kd_per_s * (wanted_rate(p, p->kp_per_s * error.y) - rate->y),
       p->kd_yaw_per_s * (wanted_rate(p, p->kp_yaw_per_s * error.z + in->yaw_rate_radps) - rate->z),
   };
-  // Of the last increment what was applied: mixing gives yaw up first.
+  // The part of the last increment that was applied: the mixer gives up yaw first.
   const float g = p->g2_s / period_s, last_Nm = in->torque_b_Nm.z - s->yaw_now_Nm;
   const float x_kgm2 = p->quick * p->inertia_xx_kgm2, y_kgm2 = p->quick * p->inertia_yy_kgm2;
   v3_t step = {x_kgm2 * (nu.x - acc.x), y_kgm2 * (nu.y - acc.y),
@@ -100,7 +99,7 @@ v3_t att_indi_step(att_indi_t *s, const att_indi_param_t *p, const lpf2_coef_t *
     step.x = EITHER(adds, step.x + ceiling_Nm(in, x_kgm2 * p->kd_per_s, rate->x), step.x);
     step.y = EITHER(adds, step.y + ceiling_Nm(in, y_kgm2 * p->kd_per_s, rate->y), step.y);
   }
-  // What the rotors give now and the vehicle does not show.
+  // External torque: what the rotors give now, less what the vehicle shows.
   const v3_t held = {in->ratio * now.x - p->inertia_xx_kgm2 * acc.x,
                      in->ratio * now.y - p->inertia_yy_kgm2 * acc.y,
                      now.z + g * (now.z - s->yaw_now_Nm) - p->inertia_zz_kgm2 * acc.z};

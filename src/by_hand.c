@@ -1,4 +1,4 @@
-// by_hand.c - the keep-out where the height is flown by hand.
+// by_hand.c - the keep-out below a ceiling while the height is flown by hand.
 #include "flight/by_hand.h"
 
 #include "flight/bounds.h"
@@ -7,7 +7,7 @@
 // test: by_hand_leaves_the_ceiling_farther_away_than_it_met_it_and_minds_tilt_and_offset
 #define UPRIGHT 0.7f // cosine of the tilt: beyond 45 degrees the sensor looks at a wall
 // test: by_hand_believes_no_gap_of_an_age_that_is_none
-#define GAP_MAX_M (2.0f * CEILING_RANGE_MAX_M) // beyond, the climb over the age is no climb
+#define GAP_MAX_M (2.0f * CEILING_RANGE_MAX_M) // beyond, the age is invalid, and so the climb over it
 
 void by_hand_init(by_hand_t *s) {
   *s = (by_hand_t){.since_s = BY_HAND_BELIEVE_S};
@@ -15,8 +15,8 @@ void by_hand_init(by_hand_t *s) {
 
 static void look(by_hand_t *s, const by_hand_param_t *p, const by_hand_in_t *in, float climb_mps) {
   const float up = quat_up(in->q_wb).z;
-  // Below its floor the sensor speaks of nothing; what is known moves on.
-  const float least_m = f_max(p->floor_m, CEILING_RANGE_MIN_M); // a sensor that never began says 0
+  // Below its floor the sensor measures nothing; the known gap is moved on.
+  const float least_m = f_max(p->floor_m, CEILING_RANGE_MIN_M); // a sensor that never started gives 0
   if (!(in->range_m >= least_m && in->range_m <= CEILING_RANGE_MAX_M && up >= UPRIGHT)) return;
   const float gap_m = (in->range_m - p->up_offset_m) * up - climb_mps * in->range_age_s;
   if (!(fabsf(gap_m) <= GAP_MAX_M)) return;

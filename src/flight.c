@@ -7,18 +7,18 @@
 #include <limits.h>
 #include <string.h>
 
-// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
-// the test that moves with it.
+// Constants: the name ends in the unit, if there is one. The comment behind gives the reason for the value,
+// and the line above each group names the test that pins it.
 
 // test: flight_feeds_the_yaw_rate_forward_in_both_modes
 #define INNER_S 0.002f // watch_time runs the inner loop in every second millisecond
 // test: flight_follows_a_velocity_on_any_axis
 #define OUTER_S 0.01f // and the outer loop in one of ten
 // test: flight_heading_runs_no_further_ahead_than_half_a_radian
-#define LEAD_COS 0.88f // of 0.5 rad: the heading that is held ahead of the vehicle's
+#define LEAD_COS 0.88f // of 0.5 rad, by which the held heading may be ahead of the vehicle's
 
 status_t flight_init(flight_t *f, const flight_param_t *p) {
-  TRY(params_check(p)); // a set that passes is one that can be flown
+  TRY(params_check(p)); // a set that passes can be flown
   memset(f, 0, sizeof *f);
   f->out.q_ref = (quat_t){.w = 1.0f};
   TRY(outer_init(&f->outer, p, OUTER_S));
@@ -44,7 +44,7 @@ static void count(flight_t *f, status_t status) {
   if (status != ST_OK && f->faults[status] < UINT_MAX) f->faults[status]++;
 }
 
-// The outer loop judges what only it uses. What the guard finds no fault with is not judged again.
+// Checks what the outer loop does not check itself; not again what the guard has found plausible.
 static status_t check_in(const flight_in_t *in, bool plausible) {
   if (!plausible && (!v3_within(in->rate_b_radps, BOUND_RATE_RADPS) || !quat_plausible(in->q_wb)))
     return ST_BAD_INPUT;
@@ -53,7 +53,7 @@ static status_t check_in(const flight_in_t *in, bool plausible) {
   return ST_OK;
 }
 
-// The heading of an attitude as a rotation about z: its cosine and sine.
+// Returns cosine and sine of the heading of an attitude, a rotation about z.
 static sincos_t heading(quat_t q) {
   const v3_t forward = quat_to_world(q, (v3_t){1.0f, 0.0f, 0.0f});
   const float length = sqrtf(forward.x * forward.x + forward.y * forward.y);
@@ -69,7 +69,7 @@ static pos_setpoint_t position_wanted(const flight_in_t *in) {
     vel.x = h.cos * sp->vel_mps.x - h.sin * sp->vel_mps.y;
     vel.y = h.sin * sp->vel_mps.x + h.cos * sp->vel_mps.y;
   }
-  // Where a velocity is wanted there is no position error.
+  // If a velocity is wanted there is no position error.
   const v3_t pos = {sp->x == AXIS_POSITION ? sp->pos_w_m.x : in->pos_w_m.x,
                     sp->y == AXIS_POSITION ? sp->pos_w_m.y : in->pos_w_m.y,
                     sp->z == AXIS_POSITION ? sp->pos_w_m.z : in->pos_w_m.z};
@@ -80,12 +80,12 @@ static APART void fly_by_height(flight_t *f, const flight_in_t *in, outer_in_t *
   const flight_param_t *p = &f->outer.param;
   const float climb_mps = x->vel_w_mps.z - f->outer.bias.vel_off_mps.z;
   height_fly(&f->height, &p->height, &p->pos, x->pos_w_m.z, climb_mps, &f->height_fly);
-  // Where a velocity is wanted there is no error of the height.
+  // If a velocity is wanted there is no error of the height.
   if (in->setpoint.z == AXIS_POSITION) x->setpoint.pos_w_m.z -= f->height_fly.more_m;
   outer_fly_by(&f->outer, &f->height_fly);
 }
 
-// Who switches it off in flight has it fade out, too.
+// Runs the height filter. Switched off in flight, it fades out, too.
 static APART void run_height(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
   const flight_param_t *p = &f->outer.param;
   const bool by = f->outer.started && (p->height.own != 0 || f->height.share > 0.0f), was = f->by_height;
@@ -97,7 +97,7 @@ static APART void run_height(flight_t *f, const flight_in_t *in, const flight_in
     }
     return;
   }
-  // After missed calls nobody knows what was commanded.
+  // After missed calls the commands meanwhile are not known.
   if (in->step - f->height_last != 10) height_lose(&f->height);
   f->height_last = in->step;
   height_in_t *const x = &f->height_in;
@@ -111,17 +111,17 @@ static APART void run_height(flight_t *f, const flight_in_t *in, const flight_in
   x->ground_excess = f->outer.ground.excess;
   x->zc_m = f->outer.out.zc_m;
   x->ceiling_z_m = f->outer.out.ceiling_z_m;
-  x->down_m = raw->down_m; // of no use but here
+  x->down_m = raw->down_m; // used only here
   x->bias_mps2 = f->outer.bias.bias_mps2.z;
   height_step(&f->height, &p->height, f->height_share, x);
 }
 
-// From what is wrong nothing is learned; least of all from an acceleration that was made up.
+// Nothing is learned from faulty inputs, least of all from a substituted acceleration.
 static bool may_learn(const flight_t *f) {
   return f->guard.now == 0 && !f->guard.acc_lost && !f->in.no_lesson;
 }
 
-// One lesson a period. In what the ceiling learns from the ground's share must be known.
+// Runs one learner a period. The ceiling's needs the ground's share of its sample.
 static APART void run_lesson(flight_t *f, bool may) {
   const bool of_ground = f->ground.turn, known = f->outer.param.ground.mode == CURVE_OFF || f->ground.known;
   FOR_WHOM(may && of_ground, f) count(f, ground_learn(&f->ground, &f->outer.param.learn));
@@ -141,18 +141,18 @@ static outer_ground_t ground_share(const ground_t *g, const outer_t *o) {
                           .lesson_excess = g->lesson_excess};
 }
 
-// Of the height that the last outer loop had, for the next one.
+// Runs the ground's curve at the last outer loop's height, for the next one.
 static APART void run_ground(flight_t *f) {
   const flight_param_t *const p = &f->outer.param;
   outer_t *const o = &f->outer;
   if (p->ground.mode == CURVE_OFF || !o->started) {
-    outer_lose_ground(o); // also a bit that flipped there: it would stay for ever
+    outer_lose_ground(o); // clears a flipped bit, too, which would stay for ever
     ground_rest(&f->ground);
     return;
   }
   const float zc_m = o->sample.zc_m; // filtered
   const rbf_point_t above = curve_at(&p->curve, &o->learn.rls.theta, o->ceiling.known, zc_m);
-  // A jump that was taken out of the height is the ground's: a table that the vehicle flies over.
+  // A jump that was removed from the height is in the ground: a table that the vehicle flies over.
   const ground_in_t x = {.height_m = o->height_last_m + f->height_off_m - p->ground_zero_m,
                          .sample = ground_may_learn(f) ? &o->sample : NULL,
                          .excess = above.ratio - 1.0f,
@@ -164,7 +164,7 @@ static APART void run_ground(flight_t *f) {
 static APART void run_outer(flight_t *f, const flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF) {
     outer_rest(&f->outer);
-    f->range_waits = false; // when the height is taken up again it is no measurement of then
+    f->range_waits = false; // it would be old when the height is controlled again
     f->out.outer = f->outer.out;
     return;
   }
@@ -183,7 +183,7 @@ static APART void run_outer(flight_t *f, const flight_in_t *in) {
   f->out.outer = *outer_step(&f->outer, x);
 }
 
-// Direction of the thrust from roll and pitch wanted about the heading's axes.
+// Returns the direction of the thrust for the wanted roll and pitch about the heading's axes.
 static v3_t direction_by_hand(const flight_setpoint_t *sp, sincos_t h, float tilt_max_rad) {
   const float max = tilt_max_rad;
   const sincos_t r = trig_sincos(f_clamp(sp->roll_rad, -max, max)),
@@ -192,7 +192,7 @@ static v3_t direction_by_hand(const flight_setpoint_t *sp, sincos_t h, float til
   return (v3_t){h.cos * up.x - h.sin * up.y, h.sin * up.x + h.cos * up.y, up.z};
 }
 
-// The heading that is held: what was asked for, or turned by the rate from where the vehicle looked.
+// Returns the heading to hold: the one asked for, or the held one turned by the rate (first the vehicle's).
 static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
   const flight_setpoint_t *sp = &in->setpoint;
   if (sp->yaw == YAW_ANGLE) {
@@ -204,7 +204,7 @@ static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
   const sincos_t now = heading(in->q_wb), ref = f->heading_known ? f->heading_ref : now;
   const sincos_t turn = trig_sincos(INNER_S * sp->yaw_rate_radps);
   const sincos_t next = {ref.sin * turn.cos + ref.cos * turn.sin, ref.cos * turn.cos - ref.sin * turn.sin};
-  // Back towards the vehicle is always allowed, or it would be held for ever.
+  // A turn back towards the vehicle is always allowed, or the heading would be stuck.
   const float lead_cos = next.cos * now.cos + next.sin * now.sin;
   const bool too_far = lead_cos < LEAD_COS && lead_cos < ref.cos * now.cos + ref.sin * now.sin;
   const sincos_t held = too_far ? ref : next;
@@ -212,20 +212,20 @@ static sincos_t heading_wanted(flight_t *f, const flight_in_t *in) {
   return (sincos_t){k * held.sin, k * held.cos};
 }
 
-// With the height controlled, until the outer loop has run: what the motors do.
+// Returns the wanted thrust; before the outer loop has run, that of the motors.
 static float thrust_wanted_N(const flight_t *f, const flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF) return in->setpoint.thrust_N;
   return f->outer.started ? f->out.outer.thrust_N : mixer_thrust_N(in->force_N);
 }
 
-// In flight the vehicle is kept upright also where no thrust is wanted. A floor that carries it does that
-// better: there the inner loop would tip it over.
+// In flight the vehicle is kept upright even if no thrust is wanted. On a floor that carries it the motors
+// are off: there the inner loop would tip it over.
 static bool motors_off(const flight_t *f, const flight_setpoint_t *sp, float thrust_N) {
   if (thrust_N > 0.0f) return false;
   return sp->z == AXIS_OFF || outer_on_floor(&f->outer);
 }
 
-// What the ceiling does to the torque while the loop does not see it, per rate of roll and pitch.
+// Returns k lag of att_indi.h: the ceiling's torque that the loop does not see yet, per roll or pitch rate.
 static float ceiling_Nms(const flight_t *f, float thrust_N) {
   const float slope_per_m = f->out.outer.at.slope_per_m, arm_m = f->outer.param.mixer.arm_m;
   const float all_Nms = f->outer.param.tilt_share * thrust_N * slope_per_m * arm_m * arm_m * f->att_lag_s;
@@ -238,13 +238,13 @@ static APART void run_inner(flight_t *f, const flight_in_t *in) {
   f->heading_ref = heading_wanted(f, in);
   f->heading_known = true;
   const float thrust_N = thrust_wanted_N(f, in);
-  // After missed calls the rate has changed for longer.
+  // After missed calls the rate's change is of a longer time.
   const float period_s = f->inner_ms > 2 ? 0.001f * (float)f->inner_ms : INNER_S;
   f->inner_ms = 0;
   if (motors_off(f, sp, thrust_N)) {
     f->out.motors = (mixer_out_t){.thrust_N = 0.0f};
     att_indi_reset(&f->att);
-    f->heading_known = false; // who carries the vehicle turns it
+    f->heading_known = false; // a hand may carry and turn the vehicle
     return;
   }
   const v3_t up =
@@ -266,7 +266,7 @@ static APART void run_inner(flight_t *f, const flight_in_t *in) {
   f->out.motors = mixer_mix(&f->outer.param.mixer, torque, thrust_N);
 }
 
-// Nothing to stay upright with: all motors alike.
+// Without inputs to stay upright with: all motors alike.
 static void run_blind(flight_t *f, float thrust_N) {
   const float each_N = f_clamp(0.25f * thrust_N, 0.0f, f->outer.param.mixer.force_max_N);
   const float all_N[MOTORS] = {each_N, each_N, each_N, each_N};
@@ -274,7 +274,7 @@ static void run_blind(flight_t *f, float thrust_N) {
 }
 
 static void run(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
-  if (ANY(in->range_new)) { // of several vehicles each has its own time for it
+  if (ANY(in->range_new)) { // of vehicles side by side each has its own time
     f->range_waits = f->range_waits || in->range_new;
     f->range_m = EITHER(in->range_new, in->range_m, f->range_m);
     f->range_age_s = EITHER(in->range_new, in->range_age_s, f->range_age_s);
@@ -287,7 +287,7 @@ static void run(flight_t *f, const flight_in_t *in, const flight_in_t *raw) {
   if (f->due & FLIGHT_INNER) run_inner(f, in);
 }
 
-// *to = *from, in pieces: more than 64 bytes the compiler copies by a call, at twice the instructions.
+// *to = *from but for down_m. In pieces: the compiler copies over 64 bytes by a call, at twice the cost.
 static ALWAYS_INLINE void take(flight_in_t *to, const flight_in_t *from) {
   to->step = from->step;
   to->rate_b_radps = from->rate_b_radps;
@@ -303,8 +303,8 @@ static ALWAYS_INLINE void take(flight_in_t *to, const flight_in_t *from) {
   to->setpoint = from->setpoint;
 }
 
-// What would stay wrong for long after a bit flipped in it: what only parameters make, the heading that is
-// held (of YAW_ANGLE; that of YAW_RATE where it is no number, from where the vehicle looks), and filters.
+// Repairs what would stay wrong for long after a flipped bit: what is computed from parameters alone, the
+// held heading (of YAW_ANGLE; of YAW_RATE only if it is not finite, from the vehicle's), and filters.
 static APART void scrub(flight_t *f) {
   count(f, flight_tune(f, &f->outer.param));
   outer_scrub(&f->outer, &f->outer_in);

@@ -1,15 +1,15 @@
-// flyable.c - do accelerometer and gyro tell of one and the same vehicle?
+// flyable.c - whether accelerometer, gyro and attitude agree.
 #include "flight/flyable.h"
 
 #include "flight/bounds.h"
 
-// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
-// the test that moves with it.
+// Constants: the name ends in the unit, if there is one. The comment behind gives the reason for the value,
+// and the line above each group names the test that pins it.
 
 // test: a_wrong_up_is_told_after_so_long_and_taken_back_at_once
 #define STEP_S      0.001f // of a call
-#define STILL_RADPS 0.1f   // a hand that rests
-#define STILL_S     0.2f   // what was felt in the hand is over
+#define STILL_RADPS 0.1f   // a hand at rest turns more slowly
+#define STILL_S     0.2f   // the hand's motion has died away
 #define WRONG_S     0.3f   // a jolt is shorter
 #define UP_MPS2     4.0f   // 24 degrees, or 0.4 g
 // test: a_vehicle_on_its_side_is_not_flyable_though_its_estimate_agrees
@@ -17,13 +17,13 @@
 // test: a_turn_tells_of_a_wrong_axis_from_so_much_on
 #define STRETCH_MS 100   // long against the sensors' noise, short against the estimate's drift
 #define ENOUGH     2.0f  // (m/s2)^2, half that of a turn by 12 degrees in one stretch
-#define JOLT_MPS2  3.0f  // of the specific force's size
+#define JOLT_MPS2  3.0f  // of the specific force's size against g
 #define EXPLAINED  0.4f  // k below this is a contradiction
-#define FORGET     0.98f // a stretch; a hand's own jolts are no evidence for ever
+#define FORGET     0.98f // per stretch; jolts of the hand do not count for ever
 // test: a_stretch_that_hardly_turned_adds_nothing
-#define TURNED_MPS2 0.5f // less of a turn says less than a hand's jolts do
+#define TURNED_MPS2 0.5f // a smaller turn says less than the jolts of a hand
 // test: what_is_no_number_says_nothing_about_being_flyable
-#define RATE_MOST_RADPS 100.0f // three times what the gyro can say
+#define RATE_MOST_RADPS 100.0f // three times the gyro's range
 
 void flyable_init(flyable_t *s) {
   *s = (flyable_t){.not_flyable = 0};
@@ -36,14 +36,14 @@ static bool up(flyable_t *s, v3_t acc, v3_t rate, quat_t q) {
   if (!ANY(still)) return kept;
   const v3_t wanted = quat_to_body(quat_unit(q), (v3_t){0.0f, 0.0f, GRAVITY_MPS2});
   const v3_t error = v3_sub(acc, wanted);
-  // On its back on a table the estimate may agree: it cannot take off from there either.
+  // On its back on a table the estimate may agree, but the vehicle cannot take off from there either.
   const bool wrong = v3_dot(error, error) > UP_MPS2 * UP_MPS2 || acc.z < UPRIGHT_MPS2;
   const float wrong_s = EITHER(wrong, f_clamp(s->wrong_s + STEP_S, 0.0f, WRONG_S), 0.0f);
   s->wrong_s = EITHER(still, wrong_s, s->wrong_s);
   return EITHER(still, wrong && (kept || s->wrong_s >= WRONG_S), kept);
 }
 
-// About one axis: what the turn so far says; `kept` where it says nothing.
+// True if the turn so far contradicts the gyro along one axis; `kept` if it says nothing.
 static bool turn(flyable_turn_t *s, bool kept, float change, float explained) {
   const bool turned = !(fabsf(explained) < TURNED_MPS2);
   FOR_WHOM(turned, s) {

@@ -4,11 +4,11 @@
 #include "flight/bounds.h"
 #include "flight/judge.h"
 
-// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
-// the test that moves with it.
+// Constants: the name ends in the unit, if there is one. The comment behind gives the reason for the value,
+// and the line above each group names the test that pins it.
 
 // test: guard_counts_a_bad_sample_four_times_a_good_one_and_150_at_most
-#define BAD_LESS    0.25f // of a good sample's time is taken off the bad ones'
+#define BAD_LESS    0.25f // of the time of good samples is subtracted from that of bad ones
 #define BAD_MOST_MS (3.0f * (float)GUARD_NOT_A_NUMBER_ENDS_MS)
 // test: guard_takes_more_than_a_centimetre_for_another_height
 #define OTHER_M 0.01f // more than a stick's noise
@@ -16,16 +16,16 @@
 #define QUIET_MS 1000 // ten range samples
 // test: guard_goes_down_to_its_safe_gap_at_its_speed
 #define RETREAT_MS                                                                                           \
-  300.0f // until a retreat has its full speed: three times the law's own time, as a step is seen
+  300.0f // until a retreat has its full speed: three times the law's own time, as a step would show
 // test: guard_has_landed_when_a_floor_carries_for_a_tenth_of_a_second
 #define LANDED_MS 100 // a bump in flight is shorter
 // test: guard_learns_hover_thrust_as_a_mean_over_half_a_second
-#define HOVER_PER_MS 0.002f // longer than a climb begins or ends
+#define HOVER_PER_MS 0.002f // slower than a climb begins or ends
 // test: guard_gives_less_than_hover_thrust_in_a_hand_over_and_then_none
-#define HOVER_LEAST 0.5f // of the weight: whatever was learned
+#define HOVER_LEAST 0.5f // of the weight, whatever was learned
 #define HOVER_MOST  1.3f // likewise
 
-// The reasons that send it down at once.
+// The reasons that lead to a retreat at once.
 #define GOES_DOWN(bit, reason, lasts, down, ...) ((down) == 0 ? 1u << (bit) : 0u) |
 static const unsigned SENDS_DOWN = GUARD_REASONS(GOES_DOWN) 0u;
 
@@ -41,10 +41,9 @@ void guard_rest(guard_t *g) {
   g->range_last_m = range_m;
 }
 
-// --- reasons of the call as a whole
-// ---------------------------------------------------------------------------
+// --- reasons of the call as a whole -----------------------------------------------------------------------
 
-// A sensor or the estimate is not finite, or beyond all bounds.
+// True if a sensor or the estimate is not finite, or beyond its bound.
 static bool not_a_number(guard_t *g, const guard_in_t *in) {
   const bool good = v3_within(in->rate_b_radps, BOUND_RATE_RADPS) &&
                     v3_within(in->acc_b_mps2, BOUND_ACC_MPS2) && v3_within(in->pos_w_m, BOUND_POS_M) &&
@@ -58,7 +57,7 @@ static bool setpoint(guard_t *g, const guard_in_t *in) {
   return !in->setpoint_good;
 }
 
-// On the floor under a ceiling there is no room to find out how much thrust lifts off.
+// True on the floor under a near ceiling: there is no room to find out how much thrust lifts off.
 static bool no_room(const guard_t *g, const guard_param_t *p, const guard_in_t *in) {
   return in->wanted && !g->flown && in->thrust_N < CARRYING_SHARE * in->weight_N && g->range_last_m > 0.0f &&
          g->range_last_m < p->take_off_m;
@@ -66,7 +65,7 @@ static bool no_room(const guard_t *g, const guard_param_t *p, const guard_in_t *
 
 // --- what is done about them ------------------------------------------------------------------------------
 
-// Slow mean of the thrust that carries, for when nothing better is known.
+// Updates the slow mean of the thrust that carries, for when nothing better is known.
 static void learn_hover(guard_t *g, const guard_in_t *in) {
   const float least = CARRYING_SHARE * in->weight_N;
   FOR_WHOM(g->now == 0 && in->carries, &g->hover_N) {
@@ -75,16 +74,16 @@ static void learn_hover(guard_t *g, const guard_in_t *in) {
   }
 }
 
-// What has flown is in the air until a floor carries it, however little thrust it gives: it may be falling.
+// A vehicle that has flown is in the air until a floor carries it, even without thrust: it may be falling.
 static void find_airborne(guard_t *g, const guard_in_t *in) {
   g->flown = g->flown || in->carries;
   g->floor_ms = judge_longer(g->floor_ms, in->on_floor && !in->carries, in->ms);
   g->airborne = in->carries || (g->airborne && g->floor_ms < LANDED_MS);
 }
 
-// Where it began while a velocity was asked for (NaN), any height is another one. Below a ceiling that nobody
-// sees only one that needs no climb ends a retreat: the pilot who is told of more room than there is goes on
-// asking for more.
+// True if the pilot asks for another height than at the begin of the retreat, which ends it. If a velocity
+// was asked for then (NaN), any height is another one. Below an unseen ceiling only a height without a climb
+// counts: a pilot who is told of more room than there is goes on asking for more.
 static bool asks_for_another(const guard_t *g, const guard_in_t *in) {
   return in->setpoint_good && f_finite(in->asked_z_m) && !(g->unseen && in->asked_z_m > in->pos_w_m.z) &&
          !(fabsf(in->asked_z_m - g->asked_at_m) <= OTHER_M);
@@ -156,10 +155,10 @@ void guard_step(guard_t *g, const guard_param_t *p, const guard_in_t *in) {
 
 float guard_retreat_z_m(const guard_t *g, const guard_param_t *p, float z_m, float ceiling_z_m,
                         float kp_per_s) {
-  // Not all at once: the thrust is not to drop by more than it has to. From a ceiling unseen it has to.
+  // The speed builds up, so that the thrust drops no more than needed. From an unseen ceiling it must drop.
   const float speed = g->unseen ? 1.0f : f_clamp((float)g->retreat_ms / RETREAT_MS, 0.0f, 1.0f);
   const float lowest_m = z_m - p->sink_mps / kp_per_s * speed;
-  const float under_m = g->unseen ? g->hold_z_m : ceiling_z_m; // it is no lower than where that was noticed
+  const float under_m = g->unseen ? g->hold_z_m : ceiling_z_m; // the ceiling is not below where RATIO began
   const float safe_m = f_finite(under_m) ? under_m - p->safe_gap_m : lowest_m;
   const float top_m = safe_m < g->hold_z_m ? safe_m : g->hold_z_m;
   return f_max(top_m, lowest_m);

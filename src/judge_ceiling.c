@@ -3,51 +3,51 @@
 #include "flight/ceiling.h"
 #include "flight/judge.h"
 
-// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
-// the test that moves with it.
+// Constants: the name ends in the unit, if there is one. The comment behind gives the reason for the value,
+// and the line above each group names the test that pins it.
 
 // test: guard_raises_each_reason_at_its_threshold
 #define NEAR_M      0.2f  // full thrust closes it in 0.22 s
-#define ODD_M       0.05f // as far as the estimate itself believes a sample (CEILING_JUMP_M)
+#define ODD_M       0.05f // up to here the estimate itself believes a sample (CEILING_JUMP_M)
 #define MOVED_M     0.02f // more than the noise of range and height
-#define FULL_SHARE  0.98f // of the largest thrust: mixing gives some of it up
-#define RATIO_NEAR  1.15f // a tenth of the weight dropped makes 1.11
+#define FULL_SHARE  0.98f // of the largest thrust: the mixer gives some of it up
+#define RATIO_NEAR  1.15f // dropping a tenth of the weight makes 1.11
 #define RATIO_FAR_M 0.11f // the curve ends at 0.1 m
 // test: guard_takes_a_range_for_frozen_that_is_the_same_for_long_enough_and_often_enough
 #define RANGE_SAME 3 // samples in whole millimetres: two are alike by chance
 // test: guard_takes_the_mean_ratio_of_a_tenth_of_a_second
-#define RATIO_MEAN_S 0.1f // a motor lag that is wrong by 30 % shows 1.15 for half of it when a climb ends
+#define RATIO_MEAN_S 0.1f // with a motor lag 30 % wrong the end of a climb shows 1.15 for half of this
 // test: guard_knows_what_is_usual_after_a_second_in_the_air
-#define RATIO_AFTER_S 1.0f // until then it lifts off
+#define RATIO_AFTER_S 1.0f // until then the vehicle lifts off
 // test: guard_lets_the_usual_ratio_follow_by_the_time_that_has_passed
-#define RATIO_SLOW_S 5.0f // upwards: a ceiling that comes near is not to become usual
+#define RATIO_SLOW_S 5.0f // upwards: a ceiling that comes near must not become usual
 #define RATIO_FAST_S 2.0f // downwards
 // test: guard_takes_a_ratio_that_grows_with_the_height_risen_for_a_ceiling
 #define GROWTH_PER_M 80.0f  // as the curve of this rotor does: 1.8 over its radius (ceil.cb)
-#define GROWTH_LEAST 0.075f // of the ratio, more than usual: the curve gives it 22 mm below a ceiling
-#define GROWTH_FAR_M 0.06f  // where the curve gives a twentieth of that; nearer it explains what grows
+#define GROWTH_LEAST 0.075f // of the ratio beyond the usual one: the curve gives it 22 mm below a ceiling
+#define GROWTH_FAR_M 0.06f  // the curve gives a twentieth of that here; nearer, it explains a growth
 // test: guard_takes_no_jolt_for_a_ceiling
 #define GROWTH_MEAN_S 0.4f // a gust lasts for 0.3 s; in a climb at 0.1 m/s the curve grows 24-fold
-#define GROWTH_SHARE  0.8f // of the ratio's variance; what a load dropped or a gust shares by chance is less
-#define GROWTH_SEEN   2.5f // samples' worth of rise: 1 cm at the least, and no faster than 0.16 m/s
+#define GROWTH_SHARE  0.8f // of the ratio's variance; a dropped load or a gust explains less by chance
+#define GROWTH_SEEN   2.5f // sum of squares of f about its mean: a rise of 1 cm or more, below 0.16 m/s
 // test: guard_forgets_a_growth_where_a_bit_of_it_flipped
 #define GROWTH_MOST  1e3f // of all sums together: 40 samples of a ratio that is wrong by 3.5
-#define GROWTH_ROUND 1.0f // of fy^2 below: rounding makes a hundredth of it, the least ceiling 56
+#define GROWTH_ROUND 1.0f // tolerance of fy^2: rounding makes a hundredth of it, the least ceiling 56
 // test: guard_has_no_usual_ratio_where_a_bit_of_it_flipped
-#define RATIO_LEAST 0.3f // so little carries no vehicle that its thrust map describes
+#define RATIO_LEAST 0.3f // no vehicle with a valid thrust map has less
 #define RATIO_MOST  5.0f // as params.h has it for ceil.ratioMax
 // test: guard_has_no_usual_ratio_in_the_first_second_in_the_air
-#define CARRIED_MOST_S 10.0f // long enough to know
+#define CARRIED_MOST_S 10.0f // the count stops here: long enough to know
 // test: guard_sums_up_what_range_samples_say_of_a_ceiling_that_is_too_near
-#define TOO_NEAR_M     0.015f // more than range and flight are off by
-#define VERY_NEAR_M    0.055f // where the estimate lives on climb alone (ceil.near), and a little more
+#define TOO_NEAR_M     0.015f // more than the errors of range and flight
+#define VERY_NEAR_M    0.055f // where the estimate follows the climb alone (ceil.near), and a little more
 #define TOO_NEAR_SUM   14 // 1.4 s of samples that the height explains, 0.7 s of others, 0.4 s at the floor
-#define TOO_NEAR_MOST  20 // 0.4 s after the last one it is over
-#define TOO_NEAR_LESS  2  // a sample that is none takes off
-#define TOO_NEAR_OTHER 2  // one that the height does not explain adds
-#define TOO_NEAR_FLOOR 4  // one at the sensor's floor that it does not explain adds
+#define TOO_NEAR_MOST  20 // 0.4 s after the last such sample the reason ends
+#define TOO_NEAR_LESS  2  // subtracted for any other sample
+#define TOO_NEAR_OTHER 2  // added for one that the height does not explain
+#define TOO_NEAR_FLOOR 4  // added for one that it does not explain at the sensor's floor
 
-// No sample that is a distance for too long, after a ceiling was near enough to need one.
+// True if no valid sample came for too long, after a ceiling was near enough to need one.
 static bool range_lost(guard_t *g, const guard_in_t *in, bool distance) {
   g->near_seen = EITHER(in->zc_known, in->zc_m < NEAR_M && in->zc_m >= in->range_near_m, g->near_seen);
   g->range_ms = judge_longer(g->range_ms, !distance, in->ms);
@@ -58,7 +58,7 @@ static bool blind(const guard_param_t *p, const guard_in_t *in) {
   return in->zc_known && in->zc_m < in->range_near_m && in->blind_s > p->blind_max_s;
 }
 
-// A sample that is no distance, or that the vehicle's climb does not explain.
+// True for a sample that is not a distance, or that the vehicle's climb does not explain.
 static bool range_odd(const guard_t *g, const guard_in_t *in, bool distance) {
   const bool kept = (g->now & GUARD_RANGE_ODD) != 0;
   const bool odd = !distance || (in->zc_known && in->range_m >= in->range_floor_m &&
@@ -66,7 +66,7 @@ static bool range_odd(const guard_t *g, const guard_in_t *in, bool distance) {
   return EITHER(in->range_new, odd, kept);
 }
 
-// The same value again and again while the height moves.
+// True if the same value comes again and again while the height moves.
 static bool range_frozen(guard_t *g, const guard_in_t *in, bool distance) {
   const bool kept = (g->now & GUARD_RANGE_FROZEN) != 0;
   g->range_new_ms = judge_longer(g->range_new_ms, true, in->ms);
@@ -90,9 +90,9 @@ static bool saturated(guard_t *g, const guard_in_t *in) {
   return in->zc_known && in->zc_m < NEAR_M && g->full_ms > GUARD_SATURATED_LASTS_MS;
 }
 
-// How much a range sample says that the ceiling is nearer than the set point allows. If the estimated height
-// does not know it, then that has drifted, and it counts for more. A step of the accelerometer's bias is an
-// excursion that ends by itself.
+// Returns how much a range sample says that the ceiling is nearer than the set point allows. If the estimated
+// height does not explain it, the height has drifted, and the sample counts for more. After a step of the
+// accelerometer's bias it counts 0, because that excursion ends by itself.
 static int nearer(const guard_t *g, const guard_in_t *in) {
   const float least_m = in->range_m + TOO_NEAR_M;
   const bool at_floor = in->range_m < in->range_floor_m;
@@ -118,11 +118,12 @@ static bool can_be(float ratio) {
   return fabsf(ratio - 0.5f * (RATIO_MOST + RATIO_LEAST)) <= 0.5f * (RATIO_MOST - RATIO_LEAST);
 }
 
-// One more sample. Where the vehicle rises by dz, every older one is farther below it: its share in what the
-// ceiling gives shrinks by exp(-dz GROWTH_PER_M). A sink is not followed, as shares would grow without bound.
+// Adds a sample to the fit. When the vehicle rises by dz, all older samples are farther below it: their share
+// of the ceiling's excess shrinks by exp(-dz GROWTH_PER_M). A sink is not followed, as the shares would grow
+// without bound.
 static void fit_growth(guard_growth_t *s, float more, float climb_m, float keep) {
   const float up = f_clamp(GROWTH_PER_M * climb_m, 0.0f, 0.5f);
-  const float share = keep * (1.0f - up + 0.5f * up * up); // of exp as much as is needed
+  const float share = keep * (1.0f - up + 0.5f * up * up); // exp, as exactly as needed
   s->ff = share * (1.0f - up + 0.5f * up * up) * s->ff + 1.0f;
   s->fy = share * s->fy + more;
   s->f = share * s->f + 1.0f;
@@ -131,11 +132,11 @@ static void fit_growth(guard_growth_t *s, float more, float climb_m, float keep)
   s->yy = keep * s->yy + more * more;
 }
 
-// By least squares, over these samples: more than usual = const + a f, where f is the share of each as above,
-// 1 of this one. So a is what a ceiling gives here and now, told by how it grew. It is one where a, and the
-// fit here, are as large as near a ceiling, and where the fit explains what was seen. (The sums are n times
-// the squares about the means.) No fit explains more than there is: where it does a bit flipped, and all is
-// forgotten.
+// True if the ratio grows as below a ceiling. Least-squares fit over the samples: ratio beyond the usual one
+// = const + a f, where f is the share of each sample as above, 1 for this one. So a is a ceiling's excess
+// here and now, inferred from its growth. It is a ceiling's if a, and the fit at this sample, are as large as
+// near a ceiling, and if the fit explains the variance. (ff, fy and yy are n times the sums of squares about
+// the means.) A fit that explains more than there is comes from a flipped bit, and all is forgotten.
 static bool grows(guard_growth_t *s) {
   const float ff = s->n * s->ff - s->f * s->f, fy = s->n * s->fy - s->f * s->y,
               yy = s->n * s->yy - s->y * s->y;
@@ -147,9 +148,9 @@ static bool grows(guard_growth_t *s) {
          here >= GROWTH_LEAST * s->n * ff && fy * fy >= GROWTH_SHARE * ff * yy;
 }
 
-// The second witness: near a ceiling the same thrust carries more, whatever the range sensor says. Against
-// what it usually carries, which follows slowly upwards (a lighter vehicle) and quickly down. What one sample
-// says stands until the next, where two memories of it agree: in one alone a bit flipped.
+// The second witness: near a ceiling the same thrust carries more, whatever the range sensor says. The ratio
+// is compared with the usual one, which follows slowly upwards (a lighter vehicle) and quickly down. The
+// result of a sample stands until the next if two memories of it agree; otherwise a bit of one has flipped.
 static bool ratio(guard_t *g, const guard_in_t *in) {
   g->force_ms = judge_longer(g->force_ms, true, in->ms);
   if (!in->force_new) return (g->now & GUARD_RATIO) != 0 && g->ratio_ms >= GUARD_RATIO_LASTS_MS;

@@ -2,47 +2,47 @@
 #include "flight/bounds.h"
 #include "flight/judge.h"
 
-// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
-// the test that moves with it.
+// Constants: the name ends in the unit, if there is one. The comment behind gives the reason for the value,
+// and the line above each group names the test that pins it.
 
 // test: guard_raises_each_reason_at_its_threshold
 #define VEL_STEP_MPS  0.5f   // in one period of the estimator: 5 g
 #define ACC_CLIP_MPS2 196.2f // 20 g; the sensor ends at 24
 // test: guard_believes_a_velocity_that_jumps_within_300_ms_of_an_impact
 #define IMPACT_MPS2 25.0f // along an axis; the rotors give 15
-#define IMPACT_MS   300   // the estimate still jumps
+#define IMPACT_MS   300   // for so long the estimate may jump
 // test: guard_takes_a_sensor_for_frozen_that_was_alive
-#define RATE_LIFE  5e-4f // rad/s a millisecond; a tenth of a real gyro's noise
-#define ACC_LIFE   2e-3f // m/s2 a millisecond
+#define RATE_LIFE  5e-4f // rad/s per millisecond; a tenth of a real gyro's noise
+#define ACC_LIFE   2e-3f // m/s2 per millisecond
 #define LIFE_SHARE 0.01f // of a call in the mean: 0.1 s
 // test: guard_measures_a_sensors_life_by_its_change_in_a_millisecond
-#define KNOCK_MPS2 1.0f // of one call no more is life
+#define KNOCK_MPS2 1.0f // a larger change in one call counts as this
 // test: guard_remembers_a_clipped_acceleration_for_200_ms
-#define CLIP_MEMORY_MS 200 // the 8 Hz filter has forgotten
+#define CLIP_MEMORY_MS 200 // by then even the thesis's 8 Hz filter has forgotten it
 // test: guard_allows_a_lean_of_60_degrees_to_the_bit
 #define TILT_UP 0.5f // cosine of the tilt
 // test: guard_holds_a_settled_bias_against_its_bounds
-#define BIAS_MPS2 0.5f // from here on it is a fault
-#define BIAS_KEPT 0.5f // of it: it is one until then
+#define BIAS_MPS2 0.5f // a larger one is a fault
+#define BIAS_KEPT 0.5f // of BIAS_MPS2: a fault until the bias is below this
 // test: guard_finds_a_step_of_the_accelerometers_bias_as_the_mean_since_then
 #define BIAS_MAX_MPS2  3.0f  // a third of g: more is no bias
 #define BIAS_STEP_MPS2 0.3f  // nearly seven times the noise of the mean over BIAS_FAST_S
-#define BIAS_FAST_S    0.15f // a mean that follows; over 0.1 s its noise alone was a step once in 40 min
-#define BIAS_SLOW_S    1.0f  // what is left by then is the outer loop's
+#define BIAS_FAST_S    0.15f // a fast mean; over 0.1 s its noise alone made a step once in 40 min
+#define BIAS_SLOW_S    1.0f  // what remains then is the outer loop's
 #define BIAS_MS        10    // the estimator's period
 // test: guard_finds_a_step_of_the_bias_after_a_bit_of_what_it_remembers_flipped
-#define REST_MAX_MPS2 (4.0f * BIAS_MAX_MPS2) // of an error and two biases, each within the largest, and more
+#define REST_MAX_MPS2 (4.0f * BIAS_MAX_MPS2) // more than an error and two biases, each within the largest
 
 static float change(v3_t a, v3_t b) {
   return fabsf(a.x - b.x) + fabsf(a.y - b.y) + fabsf(a.z - b.z);
 }
 
-// What jumps by 5 g in velocity is none: the last good one goes on with the accelerometer, until what comes
-// no longer jumps. Unless the accelerometer has felt an impact: then it is true.
+// True if the estimated velocity is lost: it jumped by 5 g. The last good one is then integrated on with the
+// accelerometer, until the estimate no longer jumps. After an impact that the accelerometer has felt, a jump
+// is true.
 static bool velocity(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const bool calm = v3_within(v3_sub(in->vel_w_mps, g->vel_raw), VEL_STEP_MPS);
-  // What is believed is what came last, unless that is lost; but a bit flipped in one of them alone is no
-  // loss.
+  // Unless lost, the believed velocity is the last one. A flipped bit in one of them alone is no loss.
   const bool odd = !v3_within(v3_sub(in->vel_w_mps, g->vel_w_mps), VEL_STEP_MPS);
   g->vel_raw = in->vel_w_mps;
   g->vel_calm_ms = judge_longer(g->vel_calm_ms, calm, in->ms);
@@ -59,7 +59,8 @@ static bool velocity(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   return g->vel_lost;
 }
 
-// A sensor that was alive and now gives the same bits is frozen. One that never was (a perfect one) is not.
+// True if a sensor that was alive now gives the same bits. One that was never alive (a perfect one) is not
+// frozen.
 static bool frozen(int *same_ms, float *life, float changed, float least, int lasts_ms, int ms) {
   *same_ms = judge_longer(*same_ms, changed == 0.0f, ms);
   const bool lasts = *same_ms >= lasts_ms;
@@ -108,11 +109,11 @@ static void follow_bias(guard_t *g, float rest, float dt) {
   FOR_WHOM(g->bias_s < JUDGE_SETTLED_S, g) g->bias_s += dt;
 }
 
-// What the vertical acceleration says against the change of the estimated climb is the accelerometer's error.
-// Only steps of it are found here, as the mean since the step; what is left is the outer loop's.
+// Finds steps of the accelerometer's error, which is the vertical acceleration minus the change of the
+// estimated climb rate, as the mean since the step. The rest is left to the outer loop.
 static void find_bias(guard_t *g, const guard_in_t *in, float error_mps2, float dt) {
   const float rest = error_mps2 - g->bias_mps2 - in->bias_known_mps2;
-  FOR_WHOM(fabsf(rest) <= REST_MAX_MPS2, g) follow_bias(g, rest, dt); // else a bit flipped, of one of them
+  FOR_WHOM(fabsf(rest) <= REST_MAX_MPS2, g) follow_bias(g, rest, dt); // else a bit in one of them flipped
   g->bias_mps2 = f_bound(g->bias_mps2, BIAS_MAX_MPS2);
 }
 
@@ -124,7 +125,7 @@ static void begin_window(guard_t *g) {
 
 static bool acc_bias(guard_t *g, const guard_in_t *in, quat_t q_wb) {
   const bool kept = (g->now & GUARD_ACC_BIAS) != 0, lost = g->acc_lost || g->acc_clip_ms > 0;
-  // Below 0 its sign flipped: it would not end in days.
+  // Below 0 its sign bit flipped, and the window would not end for days.
   FOR_WHOM(lost || g->window_ms < 0, g) begin_window(g);
   FOR_WHOM(!lost, g) {
     const v3_t force = quat_to_world(q_wb, in->acc_b_mps2);

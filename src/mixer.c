@@ -13,11 +13,11 @@ mixer_out_t mixer_of(const mixer_param_t *p, const float force_N[MOTORS]) {
 
 mixer_out_t mixer_mix(const mixer_param_t *p, v3_t torque_b_Nm, float thrust_N) {
   const float max = p->force_max_N, arms_m = 4.0f * p->arm_m;
-  // A torque that is no number is none: clamped as a force it would stop all motors.
+  // A torque of NaN counts as 0: clamped as a force it would stop all motors.
   const float roll = f_bound(torque_b_Nm.x / arms_m, ASKED_MAX_N);
   const float pitch = f_bound(torque_b_Nm.y / arms_m, ASKED_MAX_N);
   const float yaw_N = f_bound(torque_b_Nm.z / (4.0f * p->yaw_m), ASKED_MAX_N);
-  // Of roll and pitch the extremes are +-(|roll| + |pitch|): their span must fit between 0 and max.
+  // The extremes of roll and pitch are +-(|roll| + |pitch|): their span must fit between 0 and max.
   const float half_span = fabsf(roll) + fabsf(pitch);
   const float tilt_share = EITHER(2.0f * half_span > max, max / (2.0f * half_span), 1.0f);
   const float span = tilt_share * half_span;

@@ -1,24 +1,24 @@
-// watch.c - what the guard makes of one call.
+// watch.c - the guard's part of one call.
 #include "flight/watch.h"
 
 #include "flight/bounds.h"
 
-// Constants: the unit is in the name (a bare one has none), why so much stands behind, and above each group
-// the test that moves with it.
+// Constants: the name ends in the unit, if there is one. The comment behind gives the reason for the value,
+// and the line above each group names the test that pins it.
 
 // test: watch_takes_a_long_pause_for_a_short_one_and_time_that_runs_backwards_for_a_millisecond
-#define MS_MAX 50 // a longer pause is taken for this long: what is known of before is old
+#define MS_MAX 50 // a longer pause counts as this: what is known from before it is old
 // test: watch_lets_loops_that_wait_for_more_than_three_calls_run_beside_the_inner_one_in_turn
-#define WAIT_MAX 3 // calls: of two, one has no loop
+#define WAIT_MAX 3 // calls: of two, one does not run the inner loop
 // test: watch_counts_the_time_of_the_inner_loop_up_to_a_second
-#define INNER_MS_MAX 1000 // nobody flies on after so long
+#define INNER_MS_MAX 1000 // no flight goes on after so long
 
 static bool passes(unsigned from, unsigned ms, unsigned at) {
   const unsigned to = from + ms; // from < 10, so that at + 10 is beyond it
   return (at > from && at <= to) || at + 10 <= to;
 }
 
-// Of those that wait the one after the last that was chosen here, so that none waits for ever.
+// Returns the waiting loop that follows the one chosen here last, so that none waits for ever.
 static unsigned next_of(flight_t *f, unsigned others) {
   const unsigned after = others & ~(2u * f->pressed - 1u),
                  from = f->pressed != 0 && after != 0 ? after : others;
@@ -26,9 +26,9 @@ static unsigned next_of(flight_t *f, unsigned others) {
   return f->pressed;
 }
 
-// A call costs no more than one loop, also after missed calls: the others wait for one that has none. Where
-// none comes, each call has the inner loop and one of them. The ground's curve is in no hurry: where it would
-// not be alone it is left out.
+// Returns the loops that this call runs: only one, also after missed calls, because a call must not cost
+// more. The others wait for a call without a loop; if none comes, each call runs the inner loop and one of
+// them. The ground's curve is not urgent: it is left out if it would not be alone.
 static unsigned one_of(flight_t *f, unsigned due) {
   f->waited = EITHER(f->waiting == 0, 0u, EITHER(f->waited < WAIT_MAX, f->waited + 1u, WAIT_MAX + 1u));
   due |= f->waiting;
@@ -51,10 +51,10 @@ static unsigned due_after(unsigned phase, unsigned ms) {
   if (ms == 1) return next[phase]; // most calls by far
   return (passes(phase, ms, 10) ? FLIGHT_OUTER : 0u) | (passes(phase, ms, 4) ? FLIGHT_LEARN : 0u) |
          (passes(phase, ms, 2) ? FLIGHT_HEIGHT : 0u) | (passes(phase, ms, 8) ? FLIGHT_SCRUB : 0u) |
-         FLIGHT_INNER; // a scrub where no loop runs
+         FLIGHT_INNER; // the scrub is where no loop runs
 }
 
-// It may not run for as long as calls are missed, and what it said is of where the vehicle was.
+// The ground's curve may not run while calls are missed, and its last result is for where the vehicle was.
 static void lose_ground(flight_t *f) {
   outer_lose_ground(&f->outer);
   ground_rest(&f->ground);
@@ -65,7 +65,7 @@ bool watch_time(flight_t *f, uint32_t step) {
     f->called = true;
     f->phase = step % 10;
     f->inner_ms = 2;
-    // The inner loop at once: what is commanded next is its.
+    // The inner loop runs at once, because it gives the next command.
     f->due = FLIGHT_INNER;
     f->step_last = step - 1u;
   } else {
@@ -78,7 +78,7 @@ bool watch_time(flight_t *f, uint32_t step) {
     f->due = one_of(f, due_after(f->phase, ms));
     if (ms != 1) lose_ground(f);
     const unsigned to = f->phase + ms;
-    // An outer period that was skipped altogether is known to the outer loop.
+    // The outer loop is told of periods that were skipped altogether.
     if (to >= 20) outer_miss(&f->outer, to / 10 - 1);
     f->phase = to % 10;
     f->inner_ms = EITHER(f->inner_ms < INNER_MS_MAX, f->inner_ms + (int)ms, INNER_MS_MAX);
@@ -96,13 +96,13 @@ bool watch_setpoint_good(const flight_setpoint_t *sp) {
          v3_within(sp->vel_mps, BOUND_VEL_MPS) && v3_within(sp->acc_w_mps2, BOUND_ACC_MPS2);
 }
 
-// A reset of the height estimate moves neither the vehicle nor the ceiling: it is taken out.
+// Removes resets of the height estimate, which move neither the vehicle nor the ceiling.
 static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
   const float z_m = in->pos_w_m.z;
   if (fabsf(z_m) <= BOUND_POS_M && fabsf(in->vel_w_mps.z) <= BOUND_VEL_MPS) {
     const float dz_m = z_m - f->height_m;
     const float most_m = BOUND_HEIGHT_JUMP_M + fabsf(in->vel_w_mps.z) * 0.001f * (float)(ms + 10);
-    // Else a bit of that flipped.
+    // A height_m beyond its bound is a flipped bit.
     const bool jumped = f->height_seen && fabsf(dz_m) > most_m && fabsf(f->height_m) <= BOUND_POS_M;
     FOR_WHOM(jumped, &f->height_off_m) {
       f->height_off_m = f_clamp(f->height_off_m + dz_m, -2.0f * BOUND_POS_M, 2.0f * BOUND_POS_M);
@@ -114,7 +114,7 @@ static void take_jump_out(flight_t *f, flight_in_t *in, int ms) {
   in->pos_w_m.z = z_m - f->height_off_m;
 }
 
-// Field by field: what is zeroed first takes a sixth of the millisecond's instructions.
+// Set field by field: zeroing the struct first takes a sixth of the millisecond's instructions.
 static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms, bool setpoint_good) {
   const outer_t *o = &f->outer;
   const float top_m = o->out.ceiling_z_m - f->outer.param.gap_min_m, asked_m = in->setpoint.pos_w_m.z;
@@ -151,15 +151,15 @@ static void see(guard_in_t *g, const flight_t *f, const flight_in_t *in, int ms,
   g->setpoint_z_m = EITHER(by_height, z_m, NAN);
 }
 
-// Two who hold each a part of the accelerometer's bias would keep parts that cancel: what has settled is the
-// outer loop's.
+// Hands the settled bias over to the outer loop: if guard and outer loop each held a part of the
+// accelerometer's bias, they would keep parts that cancel.
 static void hand_bias_over(flight_t *f) {
   const float settled_mps2 = guard_settled_bias_mps2(&f->guard);
   if (ANY(settled_mps2 != 0.0f)) guard_give_bias(&f->guard, outer_take_bias(&f->outer, settled_mps2));
 }
 
-// Without an accelerometer: what the thrust that the motors give does, with the bias that the outer loop will
-// take off.
+// Without an accelerometer, uses the acceleration by the thrust of the motors, plus the bias that the outer
+// loop will subtract. Otherwise subtracts the guard's bias.
 static void mend_acceleration(const flight_t *f, flight_in_t *in) {
   const guard_t *g = &f->guard;
   const bool lost = g->acc_lost && g->hover_N > 0.0f;
@@ -189,7 +189,7 @@ static void set_what_flies(const flight_t *f, flight_in_t *in) {
   }
 }
 
-// Under a ceiling a thrust by hand becomes a climb.
+// Near a ceiling, turns a thrust by hand into a climb rate.
 static APART void keep_out(flight_t *f, flight_in_t *in, int ms) {
   const flight_param_t *p = &f->outer.param;
   const by_hand_param_t param = {.kp_per_s = p->pos.kp_z_per_s,
@@ -220,7 +220,7 @@ void watch_inputs(flight_t *f, flight_in_t *in) {
   if (in->setpoint.z == AXIS_OFF)
     keep_out(f, in, ms);
   else
-    by_hand_init(&f->by_hand); // what was seen then is not known now
+    by_hand_init(&f->by_hand); // a ceiling seen by then is not known any more
   if (in->setpoint.z == AXIS_OFF) {
     f->height_off_m = 0.0f;
     f->height_seen = false;
