@@ -8,14 +8,14 @@
 
 #define DUTY_MAX 65535.0f
 
-// The firmware's map of these propellers, from the voltage at a motor.
+// Returns the thrust at a motor voltage, by the firmware's map of these propellers.
 static float of_voltage_N(float motor_V) {
   return VMOTOR2THRUST0 + motor_V * (VMOTOR2THRUST1 + motor_V * (VMOTOR2THRUST2 + motor_V * VMOTOR2THRUST3));
 }
 
 void battery_cap(float force_N[MOTORS]) {
   const float supply_V = pmGetBatteryVoltage();
-  if (of_voltage_N(supply_V) >= THRUST_MAX) return; // nothing that can be asked for is too much
+  if (of_voltage_N(supply_V) >= THRUST_MAX) return; // enough for any thrust that can be asked for
   uint16_t duty[MOTORS];
   bool full = false;
   for (unsigned i = 0; i < MOTORS; i++) {

@@ -1,4 +1,4 @@
-// battery_cap.h - a low battery caps the thrust: what of it the motors got.
+// battery_cap.h - a low battery caps the thrust: what the motors got of it.
 //
 // A battery below some 3.0 V under load cannot give full thrust; the firmware's power distribution then
 // lowers the duty of all motors alike, until the highest is full.
@@ -7,7 +7,7 @@
 
 #include "flight/mixer.h"
 
-// Of what power distribution asks of each motor, what the motors got in the last millisecond.
+// Lowers force_N, which power distribution asked of each motor, to what it got in the last millisecond.
 void battery_cap(float force_N[MOTORS]);
 
 #endif

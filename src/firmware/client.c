@@ -1,7 +1,7 @@
-// client.c - what the client on the ground is notified of.
+// client.c - notifies the client on the ground of parameters.
 //
-// All of it in the firmware's parameter task, so that nothing is written meanwhile. To notify is to write
-// the value that stands there anyway, which calls back: those calls end at `notifying`.
+// All of this runs in the firmware's parameter task, so that nothing else is written meanwhile. A
+// notification writes the value that is there anyway, which calls back; `notifying` ends those calls.
 #include "client.h"
 
 #include "FreeRTOS.h"
@@ -18,7 +18,7 @@ static void notify_whole(const char *name, uint32_t value) {
 
 static void notify_row(const param_row_t *row) {
   const float value = params_get(&GLUE.tuned, row);
-  // Of the table's two types this one's name means nothing else to the firmware.
+  // Of the table's two type names, PARAM_INT is the one that the firmware does not define.
   if (row->type == PARAM_INT)
     notify_whole(row->name, (uint32_t)(int32_t)value);
   else

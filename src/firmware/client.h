@@ -1,12 +1,13 @@
-// client.h - what the client on the ground is notified of: every parameter that is not what it wrote.
+// client.h - notifies the client on the ground of every parameter that is not what it wrote.
 //
-// The firmware answers a write with the value that was written, before the app has judged it. A client that
-// is not notified goes on showing what was refused.
+// The firmware answers a write with the value that was written, before the app has judged it. Without a
+// notification the client would go on showing a refused value.
 #ifndef FIRMWARE_CLIENT_H
 #define FIRMWARE_CLIENT_H
 
-// Called by the firmware's parameter task after every write: has it judged, and notifies of what was put
-// back. A commit is notified of when a tick has taken or refused it, which this waits for.
+// Called by the firmware's parameter task after every write. Has the write judged, and notifies the client of
+// values that were put back. If a commit is pending, waits until a tick has taken or refused it, and notifies
+// of that, too.
 void client_wrote(void);
 
 #endif

@@ -1,8 +1,8 @@
 // controller.c - controllerOutOfTree(): the firmware's call every millisecond, around flight_step().
 //
-// The firmware calls it always, also unarmed and on the ground, with a set point of zeros; it selects it by
-// stabilizer.controller = 6, in flight as well. *control still holds what was commanded a millisecond ago, by
-// whoever flew then, so that taking over is no bump.
+// The firmware calls it always, also unarmed and on the ground, with a set point of zeros. It is selected by
+// stabilizer.controller = 6, also in flight. *control still holds the command of a millisecond ago, whoever
+// gave it, so that taking over causes no bump.
 #include "controller.h"
 
 #include "battery_cap.h"
@@ -31,8 +31,8 @@ bool controllerOutOfTreeTest(void) {
   return flight_init(&GLUE.flight, &GLUE.flown) == ST_OK;
 }
 
-// Once in ten calls: the sensor measures forty times a second, without a time stamp. A value that stands for
-// longer than that is a sample each time.
+// Reads the downward range, once in ten calls: the sensor measures forty times a second, without time stamps.
+// An unchanged value counts as a new sample each time that it has stood for longer than that.
 static void take_down(flight_in_t *in) {
   const float mm = rangeGet(rangeDown);
   const bool same = mm == GLUE.down_mm && GLUE.down_same < DOWN_SAME_POLLS;
@@ -50,7 +50,8 @@ static void take_range(flight_in_t *in, uint32_t step) {
   in->range_age_s = EITHER(sample.is_new, sample.age_s, in->range_age_s);
 }
 
-// In the call of ten in which the height filter steps, and no loop runs: for it, and for a person to read.
+// Takes inputs that only the height filter, or a person, reads: in the call of ten in which that filter steps
+// and no loop runs.
 static void take_rarely(flight_in_t *in, const setpoint_t *setpoint) {
   GLUE.not_flown |= (uint8_t)units_not_flown(setpoint);
   if (GLUE.flown.height.own != 0)
@@ -59,9 +60,9 @@ static void take_rarely(flight_in_t *in, const setpoint_t *setpoint) {
     in->down_m = 0.0f;
 }
 
-// Who may not fly gets no set point: that is the supervisor's, and lets no hand-over go. Else a vehicle that
-// was handed over, fell and was armed anew would take off again under a client that still sends. In the call
-// in which it may fly again, the set point is still of before.
+// True if the set point is a pilot's. While the vehicle may not fly it is the supervisor's, which must not
+// end a hand-over: a vehicle that was handed over, fell and was armed anew would take off again under a
+// client that still sends. In the first call in which it may fly again, the set point is still the old one.
 static bool is_pilots(void) {
   const bool could_fly = GLUE.could_fly;
   GLUE.could_fly = supervisorCanFly();
@@ -84,22 +85,22 @@ static APART void take_inputs(const control_t *control, const setpoint_t *setpoi
   in->no_lesson = !supervisorIsFlying();
 }
 
-// What contradicts itself before it flies does not fly; in flight it is the guard's to judge.
+// Judges before flight whether the sensors contradict each other; in flight the guard does.
 static void judge_flyable(const flight_in_t *in) {
   FOR_WHOM(!supervisorIsFlying(), &GLUE.flyable) {
     flyable_step(&GLUE.flyable, in->acc_b_mps2, in->rate_b_radps, in->q_wb);
   }
 }
 
-// From one controller to the other over a second; at once while nobody flies.
+// Fades from one controller to the other over a second; at once while not flying.
 static void hand_over(bool flying) {
   const float wanted = GLUE.shadow ? 1.0f : 0.0f, step = 1.0f / HAND_OVER_MS;
   const float left = wanted - GLUE.stock_share;
   GLUE.stock_share += flying ? f_clamp(left, -step, step) : left;
 }
 
-// The stock controller commands roll, pitch and yaw at 500 Hz and counts on them to stand in *control
-// between; there our forces have been written over them.
+// Runs the stock controller. It commands roll, pitch and yaw at 500 Hz and expects them to stay in *control
+// in between, where our forces have overwritten them.
 static void run_stock(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                       const state_t *state, uint32_t step) {
   control->roll = GLUE.stock.roll;
@@ -111,8 +112,8 @@ static void run_stock(control_t *control, const setpoint_t *setpoint, const sens
   GLUE.stock.yaw = control->yaw;
 }
 
-// It last flew long ago, or never: the heading that it turns by a rate, and its sums, are of then. No thrust
-// wanted makes it let go of both; in step 0 each of its loops runs.
+// Resets the stock controller, which last flew long ago, or never: its heading for yaw rates and its
+// integrals are old. A set point without thrust clears both; in step 0 each of its loops runs.
 static void start_stock(control_t *control, const sensorData_t *sensors, const state_t *state) {
   static const setpoint_t NOTHING = {.thrust = 0.0f};
   run_stock(control, &NOTHING, sensors, state, 0);
@@ -141,7 +142,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
   take_inputs(control, setpoint, sensors, state, step);
   judge_flyable(&GLUE.in);
   const bool grounded = GLUE.flyable.not_flyable != 0;
-  if (grounded && GLUE.flight.guard.action != GUARD_HAND_OVER) // that one only a pilot lets go
+  if (grounded && GLUE.flight.guard.action != GUARD_HAND_OVER) // only a pilot ends a hand-over
     GLUE.in.setpoint = (flight_setpoint_t){.yaw = YAW_RATE};
   (void)flight_step(&GLUE.flight, &GLUE.in);
   settings_mend();

@@ -1,7 +1,7 @@
-// glue.h - the app's one state: what the firmware's parameters and logs point into.
+// glue.h - the app's whole state, into which the firmware's parameters and logs point.
 //
-// On the vehicle there is one. The host flies many at once: sim/crazyflie says which one this thread flies,
-// and turns the addresses of parameters and logs into that one's.
+// The vehicle has one. The host flies many at once: sim/crazyflie says which one this thread flies, and maps
+// the addresses of parameters and logs to it.
 #ifndef FIRMWARE_GLUE_H
 #define FIRMWARE_GLUE_H
 
@@ -11,13 +11,13 @@
 
 enum { PUT_BACK_WORDS = (sizeof(flight_param_t) / sizeof(float) + 31) / 32 }; // a bit for each row
 
-// Of radio.c.
+// State of radio.c.
 typedef struct {
   bool descends;
-  uint32_t since_ms, fed_ms; // begin of the descent; when we fed last
+  uint32_t since_ms, fed_ms; // begin of the descent; when this app last fed the watchdog
 } radio_t;
 
-// Of recorder.c: what the uSD deck was given last.
+// State of recorder.c: what the uSD deck was given last.
 typedef struct {
   uint32_t calls;     // since the controller was selected; stops at its largest
   uint8_t state, set; // count the rows of each event; wrap
@@ -35,13 +35,13 @@ typedef struct {
 typedef struct {
   uint8_t shadow;       // ceil.shadow: 1: the stock controller flies, this one computes and logs
   uint8_t commit;       // ceil.commit: COMMIT_*, 0 when done
-  uint8_t commit_asked; // what of it belongs to the candidate
+  uint8_t commit_asked; // the commit that belongs to the candidate
   volatile uint8_t ready;
-  uint8_t notifying;     // the client is being notified: what is written now is no write of its
+  uint8_t notifying;     // the client is being notified: writes are not the client's now
   uint8_t weights_mixed; // at the start the stored weights did not belong together
-  uint32_t weights_sum;  // ceil.wSum: stored with the weights, says that they are one set
-  uint32_t sum_flown;    // what it is for the weights that fly
-  uint32_t sum_default;  // of the table's weights
+  uint32_t weights_sum;  // ceil.wSum: checksum stored with the weights, which shows that they are one set
+  uint32_t sum_flown;    // its value for the weights that fly
+  uint32_t sum_default;  // sum_of() the table's weights
   uint8_t started;
   uint32_t put_back[PUT_BACK_WORDS]; // rows of params_table whose value was refused, as bits
   uint8_t decks;                     // DECK_*
@@ -49,24 +49,24 @@ typedef struct {
   uint32_t sets_refused;             // parameter sets that failed their checks
   uint32_t commits, commits_refused;
   bool learning;
-  bool ground_starts; // its learner, with the committed weights, in a tick to come
-  bool could_fly;     // in the last call
-  float stock_share;  // of the stock controller in what is commanded: 0, 1, or on the way
+  bool ground_starts; // its learner restarts with the committed weights in a tick to come
+  bool could_fly;     // supervisorCanFly() in the last call
+  float stock_share;  // of the stock controller in the command: 0, 1, or while fading between
   struct {
     int16_t roll, pitch, yaw;
-  } stock; // what it commanded last
+  } stock; // the stock controller's last command
   range_up_t range;
-  float down_mm;     // of the downward range sensor, as last looked at
-  uint8_t down_same; // looks since that have shown the same
+  float down_mm;     // of the downward range sensor, as last read
+  uint8_t down_same; // reads since then with the same value
   flyable_t flyable;
   recording_t recorder;
   radio_t radio;
   flight_in_t in;
   flight_t flight;
-  // Last, so that the rest stays within reach of one instruction.
+  // Last, so that one instruction can address the others.
   flight_param_t tuned; // as the parameters are written, one by one and at any time
   flight_param_t flown; // the last set that passed its checks as a whole; its weights are the committed ones
-  flight_param_t candidate; // a set that has passed them and waits for the next tick, if `ready`
+  flight_param_t candidate; // if `ready`: a set that has passed its checks and waits for the next tick
 } glue_t;
 
 enum { COMMIT_TYPED = 1, COMMIT_LEARNED = 2 };

@@ -1,4 +1,4 @@
-// radio.c - down, before the firmware's watchdog stops the motors in the air.
+// radio.c - lands before the firmware's watchdog stops the motors in the air.
 #include "radio.h"
 
 #include "FreeRTOS.h"
@@ -19,7 +19,7 @@ static void feed(radio_t *r) {
 }
 
 static void descend(radio_t *r, uint32_t now_ms) {
-  commanderRelaxPriority(); // set points that came one by one come no more
+  commanderRelaxPriority(); // the stream of single set points has ended
   if (crtpCommanderHighLevelLandWithVelocity(0.0f, RADIO_SINK_MPS, false) != 0) return;
   r->descends = true;
   r->since_ms = now_ms;
@@ -28,8 +28,8 @@ static void descend(radio_t *r, uint32_t now_ms) {
 
 void radio_watch(void) {
   radio_t *const r = &GLUE.radio;
-  const uint32_t fed_ms = last_fed_ms(), now_ms = xTaskGetTickCount(); // in this order: now is not before
-  const bool others = fed_ms != r->fed_ms;                             // somebody else fed since
+  const uint32_t fed_ms = last_fed_ms(), now_ms = xTaskGetTickCount(); // in this order: now_ms is not earlier
+  const bool others = fed_ms != r->fed_ms;                             // somebody else has fed since
   const bool leave = !supervisorIsFlying() || fed_ms == 0 || GLUE.flight.guard.action == GUARD_HAND_OVER;
   if (leave || others) r->descends = false;
   if (leave) return;

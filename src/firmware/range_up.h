@@ -1,8 +1,8 @@
 // range_up.h - new samples of the upward range sensor, from a value without time stamp.
 //
-// The firmware gives the last distance of a task that measures ten times a second. Another value is a new
-// sample. The same value is one if its time has passed by 20 ms: it was measured at its time, and is by so
-// much older. So a sensor that hangs gives samples that do not change, and the guard sees it.
+// The firmware gives the last distance of a task that measures ten times a second. A changed value is a new
+// sample. An unchanged one counts as a sample 20 ms after it was due, and is older by these 20 ms. So a
+// sensor that hangs gives samples that do not change, and the guard notices it.
 #ifndef FIRMWARE_RANGE_UP_H
 #define FIRMWARE_RANGE_UP_H
 
@@ -11,7 +11,7 @@
 
 #define RANGE_UP_PERIOD_MS 100
 #define RANGE_UP_LATE_MS   20
-#define RANGE_UP_AGE_S     0.07f // a value that just came was measured so long ago
+#define RANGE_UP_AGE_S     0.07f // age of a value that has just changed
 
 typedef struct {
   float last_mm;
@@ -25,7 +25,7 @@ typedef struct {
   float age_s;
 } range_up_sample_t;
 
-// One millisecond: value_mm as the firmware gives it, now_ms a counter that may wrap.
+// Call every millisecond. value_mm: as the firmware gives it. now_ms: a counter that may wrap.
 range_up_sample_t range_up_poll(range_up_t *s, float value_mm, uint32_t now_ms);
 
 #endif

@@ -10,7 +10,7 @@ EVENTTRIGGER(indiCall)
 EVENTTRIGGER(indiState)
 EVENTTRIGGER(indiSet)
 
-// Bit by bit: what is not a number is logged as it came.
+// Compares bit by bit: NaN is logged as it came, too.
 static bool differs(const void *a, const void *b, size_t size) {
   return memcmp(a, b, size) != 0;
 }
@@ -51,10 +51,10 @@ void recorder_call(void) {
   if (writes) {
     r->stale = r->stale || r->calls % RECORDER_ANEW_MS == 0;
     const bool anew =
-        !r->wrote || (r->stale && GLUE.flight.due == 0); // a call in which no loop ran has the time
+        !r->wrote || (r->stale && GLUE.flight.due == 0); // only a call in which no loop ran has the time
     r->stale = r->stale && !anew;
     if (anew || state_changed(r, in)) write_state(r, in);
-    // Bytes between its fields that differ cost a row, no more.
+    // Different padding bytes between its fields cost a row, no more.
     if (anew || DIFFERS(r->setpoint, in->setpoint)) write_set(r, in);
     eventTrigger(&eventTrigger_indiCall);
   }

@@ -7,24 +7,24 @@
 
 // --- weights that belong together -------------------------------------------------------------------------
 
-// Both curves'.
+// Copies the weights of both curves.
 static void put_weights(flight_param_t *to, const flight_param_t *from) {
   to->curve.fixed = from->curve.fixed;
   to->ground.fixed = from->ground.fixed;
 }
 
-// Each step can be undone, so that one bit more or less always makes another sum.
+// Each step is invertible, so that a single changed bit always changes the sum.
 static uint32_t mix(const rbf_weights_t *weights, uint32_t sum) {
   uint32_t bits;
   for (int i = 0; i < RBF_N; i++) {
     memcpy(&bits, &weights->w[i], sizeof bits);
-    sum = (sum ^ bits) * 0x85ebca6bu; // odd, its bits spread
+    sum = (sum ^ bits) * 0x85ebca6bu; // odd, with spread bits
     sum ^= sum >> 15;
   }
   return sum;
 }
 
-// Each begins otherwise: two curves that change places make another sum.
+// The curves begin with different sums, so that exchanging them changes the result.
 static uint32_t sum_of(const flight_param_t *p) {
   return mix(&p->curve.fixed, 0u) ^ mix(&p->ground.fixed, 1u);
 }
@@ -48,7 +48,7 @@ static void note(int row) {
   GLUE.put_back[row / 32] |= 1u << (row % 32);
 }
 
-// A value out of its range goes back to what flies. Two that contradict each other wait for the next write.
+// Puts values out of their range back to those that fly. Two that contradict each other wait for a write.
 static void mend(void) {
   for (int i = 0; i < params_count; i++) {
     const param_row_t *const row = &params_table[i];
@@ -59,8 +59,8 @@ static void mend(void) {
   }
 }
 
-// A set that passes waits for the next tick, and a commit with it: never one that was written after the
-// check.
+// Checks a set. One that passes waits for the next tick, and with it the commit that was asked for before the
+// check, never a later one.
 static bool offer(const flight_param_t *weights_from) {
   GLUE.ready = 0; // a tick may come at any time
   atomic_signal_fence(memory_order_seq_cst);
@@ -82,16 +82,16 @@ static bool judge(const flight_param_t *weights_from) {
 
 void settings_touched(void) {
   if (GLUE.shadow > 1) GLUE.shadow = 1;
-  GLUE.weights_sum = GLUE.sum_flown; // the app's alone to make
+  GLUE.weights_sum = GLUE.sum_flown; // only the app may change it
   if (judge(GLUE.commit == COMMIT_TYPED ? &GLUE.tuned : &GLUE.flown)) return;
   if (GLUE.commit != 0) GLUE.commits_refused++;
   GLUE.commit = 0;
-  (void)!offer(&GLUE.flown); // what was written before, and did not fly yet
+  (void)!offer(&GLUE.flown); // earlier writes that do not fly yet
 }
 
 // --- start ------------------------------------------------------------------------------------------------
 
-// All weights at once: of a set that was stored in part none is flown.
+// Puts back all weights at once: of a set that was stored in part none is flown.
 static void put_weights_back(void) {
   for (int i = 0; i < params_count; i++) {
     const param_row_t *const row = &params_table[i];
@@ -125,7 +125,7 @@ bool settings_learning(void) {
   return live && !GLUE.in.no_lesson && GLUE.in.setpoint.z != AXIS_OFF;
 }
 
-// The candidate's weights: what was typed in, or what was learned. Of both curves or of none.
+// Commits the typed or the learned weights, of both curves or of none. True if it did.
 static bool commit(unsigned which) {
   learn_t *const learn = &GLUE.flight.outer.learn;
   flight_param_t *const set = &GLUE.candidate;
@@ -145,7 +145,7 @@ static void take_commit(unsigned which) {
   if (commit(which)) {
     GLUE.commits++;
     GLUE.recorder.tunes++;
-    put_weights(&GLUE.flown, &GLUE.candidate); // also where another write makes another candidate
+    put_weights(&GLUE.flown, &GLUE.candidate); // in case a write replaces the candidate
     make_sum();
   } else {
     GLUE.commits_refused++;
@@ -153,7 +153,7 @@ static void take_commit(unsigned which) {
   }
 }
 
-// Each in a tick of its own: together they would be too much for one.
+// Takes a commit, a set, or the ground's weights, each in its own tick: together they take too long.
 static void take(void) {
   if (GLUE.ready && GLUE.commit_asked != 0) {
     take_commit(GLUE.commit_asked);
@@ -163,14 +163,14 @@ static void take(void) {
     GLUE.flown = GLUE.candidate;
     GLUE.recorder.tunes++;
     (void)!flight_tune(&GLUE.flight, &GLUE.flown);
-  } else if (GLUE.ground_starts) { // by the set that came with the commit
+  } else if (GLUE.ground_starts) { // with the set that came with the commit
     GLUE.ground_starts = false;
     (void)!learn_init(&GLUE.flight.ground.learn, &GLUE.flown.learn, &GLUE.flown.ground.fixed); // was checked
   }
 }
 
 void settings_take(void) {
-  const bool inner_is_next = GLUE.flight.phase % 2 == 0; // the cheapest, unless another waits
+  const bool inner_is_next = GLUE.flight.phase % 2 == 0; // the cheapest tick, unless a loop waits
   if (inner_is_next && GLUE.flight.waiting == 0) take();
 }
 
@@ -178,6 +178,6 @@ void settings_mend(void) {
   if (!(GLUE.flight.due & FLIGHT_SCRUB)) return;
   if (GLUE.flight.waiting != 0 && (GLUE.ready || GLUE.ground_starts))
     take();
-  else if (memcmp(&GLUE.flight.outer.param, &GLUE.flown, sizeof GLUE.flown) != 0) // else it has just done so
+  else if (memcmp(&GLUE.flight.outer.param, &GLUE.flown, sizeof GLUE.flown) != 0) // else flight_step did it
     (void)!flight_tune(&GLUE.flight, &GLUE.flown);
 }

@@ -1,7 +1,7 @@
 // telemetry.c - the app's state, its parameters and its logs. No logic.
 //
-// The parameters are the rows of flight/params.h; defaults included, nothing is said twice. With the stock
-// logs at the same instant, what stands in indiIn, indiSet and range is all that the flight code was given.
+// The parameters and their defaults are the rows of flight/params.h; nothing is said twice. With the stock
+// logs of the same instant, indiIn, indiSet and range contain all that the flight code was given.
 #include "platform_defaults.h"
 #define PARAMS_YAW_ARM_M THRUST2TORQUE
 
@@ -60,8 +60,8 @@ PARAM_GROUP_STOP(height)
 #define U8(name, field)  LOG_ADD(LOG_UINT8, name, &glue_static.field)
 #define U32(name, field) LOG_ADD(LOG_UINT32, name, &glue_static.field)
 
-// What is commanded: newton, newton metres; by this controller, also while the stock one flies. thrust is what
-// the height loop wants; m1..m4, and total, tx, ty, tz which these four give, are after mixing and limits.
+// This controller's command in newton and newton metres, also while the stock one flies. thrust is what the height
+// loop wants; m1..m4, and total, tx, ty, tz which these four give, are after mixing and limits.
 LOG_GROUP_START(indi)
 F(thrust, flight.out.outer.thrust_N)
 F(m1, flight.out.motors.force_N[0])
@@ -137,7 +137,7 @@ F(yaw, in.setpoint.yaw_rad)
 F(yawRate, in.setpoint.yaw_rate_radps)
 LOG_GROUP_STOP(indiSet)
 
-// Which rows of the uSD deck belong together (recorder.h): the stamps of each event, at its head and its end.
+// Stamps at head and end of each event of the uSD deck, which tell what rows belong together (recorder.h).
 LOG_GROUP_START(indiRec)
 U32(calls, recorder.calls)
 U32(stepEnd, in.step)
@@ -148,7 +148,7 @@ U8(setEnd, recorder.set)
 U8(tunes, recorder.tunes)
 LOG_GROUP_STOP(indiRec)
 
-// ratio has the ground's share in it (ground.excess), slope is the ceiling's alone.
+// ratio includes the ground's share (ground.excess), slope is the ceiling's alone.
 LOG_GROUP_START(ceil)
 F(zc, flight.out.outer.zc_m)
 U8(known, flight.out.outer.zc_known)
@@ -164,7 +164,7 @@ U32(noCommit, commits_refused)
 U32(noSet, sets_refused)
 LOG_GROUP_STOP(ceil)
 
-// h: height of the feet above where they stand; excess: ratio - 1 there; pull: per second squared, by height.
+// h: height of the feet above where they stand; excess: ratio - 1 there; pull: acceleration per height, 1/s2.
 LOG_GROUP_START(ground)
 F(h, flight.ground.height_m)
 F(excess, flight.outer.ground.excess)

@@ -43,7 +43,7 @@ void units_setpoint(flight_setpoint_t *to, const setpoint_t *sp) {
   to->thrust_N = sp->thrust * (MOTORS * THRUST_MAX / UNITS_MAX);
   to->yaw = sp->mode.yaw == modeAbs || by_quat ? YAW_ANGLE : YAW_RATE;
   to->yaw_rad = by_quat ? yaw_of(&sp->attitudeQuaternion) : RAD_PER_DEG * sp->attitude.yaw;
-  // A set point of zeros asks for nothing: what stands in its rate is left over.
+  // A set point of zeros asks for nothing: its rate is left over from before.
   to->yaw_rate_radps = sp->mode.yaw == modeDisable && !by_quat ? 0.0f : RAD_PER_DEG * sp->attitudeRate.yaw;
 }
 
@@ -81,8 +81,8 @@ static float others_N(const control_t *c, int i) {
   }
 }
 
-// The firmware stops a motor below THRUST_MIN (11 %). Counted as the command all the same: thrust that is
-// built up from increments, as at a take-off, would otherwise never get beyond it.
+// The firmware stops a motor below THRUST_MIN (11 %). The force counts as commanded all the same: otherwise
+// thrust that is built up from increments, as at a take-off, would never get beyond it.
 void units_applied(float force_N[MOTORS], const control_t *control) {
   if (control->controlMode == controlModeForce)
     for (int i = 0; i < MOTORS; i++)

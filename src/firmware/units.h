@@ -1,5 +1,5 @@
-// units.h - the border: the only place where g, degrees, millimetres, PWM units and foreign signs are in
-// sight.
+// units.h - the border: the only place with g, degrees, PWM units and foreign signs; of ranges in millimetres
+// see range_up.h and take_down() in controller.c.
 //
 //   firmware                                                  here
 //   sensors acc g, gyro deg/s                                 m/s2, rad/s
@@ -13,20 +13,21 @@
 #include "flight/flight.h"
 #include "stabilizer_types.h"
 
-// Sensors and estimate; all else of *in is kept.
+// Converts sensors and estimate; all else of *in is kept.
 void units_sensors(flight_in_t *in, const sensorData_t *sensors, const state_t *state);
 
-// What is not flown (units_not_flown) is level, at the thrust that it asks for: there is no rate controller.
+// Converts a set point. What is not flown (units_not_flown) becomes level, at the thrust asked for: there is
+// no rate controller.
 void units_setpoint(flight_setpoint_t *to, const setpoint_t *setpoint);
 
-// NOT_FLOWN_*: roll and pitch by their rates; an attitude as quaternion where x and y are not controlled; the
-// rates of roll and pitch that a full state brings along.
+// Returns NOT_FLOWN_*: roll or pitch by their rates; an attitude as quaternion while x or y is not
+// controlled; the rates of roll and pitch in a full state.
 unsigned units_not_flown(const setpoint_t *setpoint);
 
-// The force that the firmware's power distribution asks of each motor, in any of its three modes.
+// Computes the force that the firmware's power distribution asks of each motor, in any of its three modes.
 void units_applied(float force_N[MOTORS], const control_t *control);
 
-// The firmware's own force mode: ForceTorque would mix again and undo what the mixer gave up first.
+// Commands in the firmware's force mode: ForceTorque would mix again and undo the mixer's order of giving up.
 void units_command(control_t *control, const float force_N[MOTORS]);
 
 #endif
