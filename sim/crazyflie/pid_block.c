@@ -3,7 +3,7 @@
 
 #include "base/clip.h"
 
-// One turn at most, as there: enough for angles of -180..180.
+// Wraps by one turn at most, as the firmware does: enough for angles of -180..180.
 static double short_way(double angle_deg, bool degrees) {
   if (degrees && angle_deg > 180.0) return angle_deg - 360.0;
   if (degrees && angle_deg < -180.0) return angle_deg + 360.0;

@@ -22,15 +22,15 @@ typedef struct {
   double integral, measured_last;
 } pid_block_t;
 
-#define PID_BLOCK_INTEGRAL_MAX 5000.0 // where the firmware names none
+#define PID_BLOCK_INTEGRAL_MAX 5000.0 // where the firmware names no limit
 
-// Integral 0, derivative filter at rest, last measurement as given.
+// Starts with integral 0, derivative filter at rest and the last measurement as given.
 void pid_block_start(pid_block_t *s, const pid_gain_t *p, double rate_Hz, double measured);
 
-// Integral 0 and last measurement as given; the derivative filter goes on.
+// Sets the integral to 0 and the last measurement as given; the derivative filter goes on.
 void pid_block_reset(pid_block_t *s, double measured);
 
-// One period. degrees: wanted and measured are angles of -180..180, and the error is taken the short way.
+// Runs one period. degrees: wanted and measured are angles of -180..180; the error is taken the short way.
 double pid_block_step(pid_block_t *s, const pid_gain_t *p, double rate_Hz, double wanted, double measured,
                       bool degrees);
 

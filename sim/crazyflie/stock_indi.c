@@ -32,8 +32,8 @@ void stock_indi_select(stock_indi_t *s) {
   stock_indi_outer_select(&s->position, &s->param.position);
 }
 
-// Fault 1: what was wanted is in radians already when the next tick adds to it and converts it again. A
-// heading is turned into north-east-down, a rate is not.
+// Fault 1: the wanted yaw is in radians already when the next tick adds to it and converts it again. A
+// heading is converted to north-east-down, a rate is not.
 static void turn(stock_indi_t *s, const pilot_setpoint_t *set) {
   const double rate_dps = STOCK_DEG * set->yaw_rate_radps;
   s->angle_rad[YAW] = set->yaw_by_rate
@@ -41,7 +41,7 @@ static void turn(stock_indi_t *s, const pilot_setpoint_t *set) {
                           : -stock_cap_deg(STOCK_DEG * set->yaw_rad) / STOCK_DEG;
 }
 
-// Fault 4: degrees into what is used as radians.
+// Fault 4: puts degrees where radians are expected.
 static void run_cascade(stock_indi_t *s, const pilot_in_t *in, const stock_view_t *view) {
   const stock_position_out_t wanted = stock_position_step(&s->cascade, &s->param.cascade, in, view->yaw_deg);
   s->angle_rad[ROLL] = wanted.roll_deg;
@@ -51,7 +51,7 @@ static void run_cascade(stock_indi_t *s, const pilot_in_t *in, const stock_view_
 
 static void run_position(stock_indi_t *s, const pilot_in_t *in, const stock_view_t *view) {
   const pilot_mode_t *const mode = in->set.mode;
-  // It runs also when none of its outputs is used (fault 5).
+  // The position loop runs even when none of its outputs is used (fault 5).
   if (s->param.outer) {
     stock_indi_outer_step(&s->position, &s->param.position, in, view);
     s->thrust = s->position.thrust;
@@ -60,14 +60,14 @@ static void run_position(stock_indi_t *s, const pilot_in_t *in, const stock_view
   }
   if (mode[2] == PILOT_OFF)
     s->thrust = STOCK_FULL * in->set.thrust_N / (PILOT_MOTORS * s->param.power.thrust_max_N);
-  // Wanted roll hangs on the mode of x, pitch on that of y.
+  // Wanted roll depends on the mode of x, pitch on that of y.
   if (mode[0] == PILOT_OFF) s->angle_rad[ROLL] = in->set.roll_rad;
   if (mode[1] == PILOT_OFF) s->angle_rad[PITCH] = in->set.pitch_up_rad;
 }
 
 static void increment(stock_indi_t *s, int axis, double angle_rad, double rate_radps) {
   const stock_indi_param_t *p = &s->param;
-  // Not wrapped, of yaw neither (fault 2).
+  // The error is not wrapped, not even that of yaw (fault 2).
   const double rate_ref = p->angle_per_s * (s->angle_rad[axis] - angle_rad);
   const double before = s->rate[axis].y1;
   const double slope = STOCK_ATTITUDE_HZ * (lowpass_step(&s->rate[axis], rate_radps) - before);
@@ -97,7 +97,7 @@ void stock_indi_step(stock_indi_t *s, const pilot_in_t *in, double motor_N[PILOT
   }
   if (s->thrust < s->param.thrust_min) {
     for (int i = 0; i < 3; i++) s->u_lagged[i] = s->u_in[i] = 0.0;
-    // Degrees again; only a set point of yaw rate, which fault 1 takes to 0, could let them be seen.
+    // Degrees again. Only a yaw rate could show them, and with one fault 1 takes the wanted yaw to 0.
     if (s->thrust == 0.0) s->angle_rad[YAW] = -view.yaw_deg;
   }
   s->command = (stock_command_t){s->thrust, s->u_in[ROLL], s->u_in[PITCH], s->u_in[YAW]};

@@ -24,13 +24,13 @@ void stock_indi_outer_select(stock_indi_outer_t *s, const stock_indi_outer_param
   lowpass_init(&s->thrust_filter, p->cutoff_Hz, STOCK_ATTITUDE_HZ, 0.0);
 }
 
-// z up, y left to z down, y right.
+// From axes with y left and z up to axes with y right and z down.
 static d3_t down(d3_t v) {
   return (d3_t){v.x, -v.y, -v.z};
 }
 
-// The velocity set point is taken for one along the world's axes, whatever it is (fault 3); of a trajectory's
-// velocity and acceleration nothing is left (fault 7).
+// The velocity set point is always taken for one along the world's axes (fault 3); velocity and acceleration
+// of a trajectory are dropped (fault 7).
 static d3_t wanted_acceleration(const stock_indi_outer_param_t *p, const pilot_in_t *in) {
   const d3_t off = d3_sub(in->set.pos_w_m, in->pos_w_m);
   d3_t v = in->set.vel_mps;
@@ -58,12 +58,12 @@ void stock_indi_outer_step(stock_indi_outer_t *s, const stock_indi_outer_param_t
   const d3_t acc_b = filtered(s->acc, d3_scale(G_MPS2, down(view->acc_g)));
   const d3_t raw = {view->roll_deg / STOCK_DEG, view->pitch_deg / STOCK_DEG, -view->yaw_deg / STOCK_DEG};
   const d3_t angle =
-      filtered(s->angle, raw); // its yaw jumps at the seam, and the filter runs through all headings
+      filtered(s->angle, raw); // its yaw jumps at +-180 deg, and the filter runs through all headings
   const dq_t q = turned(angle);
   const d3_t acc = d3_add(dq_to_world(q, acc_b), (d3_t){0.0, 0.0, G_MPS2});
   const d3_t e_b = dq_to_body(q, d3_sub(wanted, acc));
 
-  // The thrust is integrated whether the vehicle flies or stands (fault 5).
+  // The thrust is integrated even while the vehicle stands on the ground (fault 5).
   s->lagged_thrust += p->lag_gain * (lowpass_step(&s->thrust_filter, s->thrust) - s->lagged_thrust);
   s->thrust = clip(s->lagged_thrust - e_b.z / p->thrust_mps2, 0.0, p->thrust_max);
   const double tilt_max_rad = p->tilt_max_deg / STOCK_DEG;

@@ -3,10 +3,10 @@
 //   position, velocity (100 Hz, stock_position.h) -> attitude (500 Hz) -> rate (500 Hz) -> mixer
 //   (stock_units.h)
 //
-// A set point that changes a mode starts position PIDs and filters anew and clears the integrals of attitude
-// and rate; so does every tick with a thrust of exactly 0. A rate of yaw moves the wanted heading, without
-// limit. Source: bitcraze/crazyflie-firmware 2a18fc29, controller_pid.c, attitude_pid_controller.c,
-// platform_defaults*.h. What differs: double precision.
+// A set point that changes a mode restarts the position PIDs with their filters and clears the integrals of
+// attitude and rate; so does every tick with a thrust of exactly 0. A yaw rate moves the wanted heading
+// without limit. Source: bitcraze/crazyflie-firmware 2a18fc29, controller_pid.c, attitude_pid_controller.c,
+// platform_defaults*.h. Here it runs in double precision.
 #ifndef SIM_CRAZYFLIE_STOCK_PID_H
 #define SIM_CRAZYFLIE_STOCK_PID_H
 
@@ -29,14 +29,15 @@ typedef struct {
   stock_position_out_t wanted; // roll, pitch, thrust
   double yaw_deg;              // wanted
   double rate_dps[3];          // wanted: roll, pitch, yaw
-  d3_t gyro_dps;               // body, and
-  double acc_z_g;              // this, as they were then: for the firmware's logs
-  pilot_setpoint_t last;       // its modes
+  d3_t gyro_dps;               // body axes, at the last attitude step: for the firmware's logs
+  double acc_z_g;              // likewise
+  pilot_setpoint_t last;       // set point of the last call, for its modes
   stock_command_t command;
   stock_power_t power;
 } stock_pid_t;
 
-// stock_pid_command is all but the mixer, for peers that put something between; call it every millisecond.
+// stock_pid_command is all but the mixer, for peers that put something between the two. To be called every
+// millisecond.
 void stock_pid_reset(stock_pid_t *s);
 const stock_command_t *stock_pid_command(stock_pid_t *s, const pilot_in_t *in);
 

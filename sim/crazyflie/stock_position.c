@@ -3,7 +3,7 @@
 
 #include "base/clip.h"
 
-#define VELOCITY_MAX_MPS (1.0 * 1.10) // the limit and its overhead
+#define VELOCITY_MAX_MPS (1.0 * 1.10) // the limit times its overhead
 #define TILT_OVERHEAD    1.10
 #define CUTOFF_HZ        20.0
 #define THRUST_PID_MAX   32.767
@@ -32,7 +32,7 @@ void stock_position_start(stock_position_t *s, const stock_position_param_t *p, 
   }
 }
 
-// World to heading: turned by -yaw about z.
+// From world axes to those of the heading: a turn by -yaw about z.
 static d3_t to_heading(d3_t v, double yaw_deg) {
   const double c = cos(yaw_deg / STOCK_DEG), s = sin(yaw_deg / STOCK_DEG);
   return (d3_t){v.x * c + v.y * s, v.y * c - v.x * s, v.z};

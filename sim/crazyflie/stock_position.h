@@ -1,9 +1,9 @@
 // stock_position.h - the position and velocity cascade of the Crazyflie's PID controller, 100 Hz.
 //
-//   wanted velocity = PID(position), of +-1.1 m/s;  roll, pitch = PID(velocity), of +-20 deg;
-//   thrust = 1000 PID(climb) + 36000, of 20000..65535
+//   wanted velocity = PID(position), within +-1.1 m/s;  roll, pitch = PID(velocity), within +-20 deg;
+//   thrust = 1000 PID(climb) + 36000, within 20000..65535
 //
-// x and y are those of the heading. In position mode the set point's velocity and acceleration are not used.
+// x and y are along the heading. In position mode the set point's velocity and acceleration are not used.
 // Source: bitcraze/crazyflie-firmware 2a18fc29, position_controller_pid.c and platform_defaults*.h.
 #ifndef SIM_CRAZYFLIE_STOCK_POSITION_H
 #define SIM_CRAZYFLIE_STOCK_POSITION_H
@@ -29,10 +29,10 @@ typedef struct {
   double thrust;              // units
 } stock_position_out_t;
 
-// All integrals 0, all filters at rest.
+// Starts with all integrals 0 and all filters at rest.
 void stock_position_start(stock_position_t *s, const stock_position_param_t *p, d3_t pos_w_m);
 
-// One period of 10 ms.
+// Runs one period of 10 ms.
 stock_position_out_t stock_position_step(stock_position_t *s, const stock_position_param_t *p,
                                          const pilot_in_t *in, double yaw_deg);
 

@@ -14,7 +14,7 @@ const stock_row_t stock_log_rows[] = {STOCK_LOGS(LOG)};
 const int stock_param_count = (int)(sizeof stock_param_rows / sizeof *stock_param_rows);
 const int stock_log_count = (int)(sizeof stock_log_rows / sizeof *stock_log_rows);
 
-// The gains that both sides have, in one order: those of the table follow each other by threes.
+// Axes whose gains both table and stock PID have, in the same order. In the table each has three in a row.
 #define GAIN_AXES 12
 
 static const pid_gain_t *gain_of(const stock_pid_param_t *pid, int axis) {

@@ -1,8 +1,8 @@
 // stock_table.h - the stock firmware's own parameters and logs that clients and scripts look for, beside
 // those of the app.
 //
-// Names and types: bitcraze/crazyflie-firmware 2a18fc29. What the host has no sensor for (magnetometer,
-// barometer) reads 0.
+// Names and types: bitcraze/crazyflie-firmware 2a18fc29. Logs of sensors that the host does not have
+// (magnetometer, barometer) read 0.
 #ifndef SIM_CRAZYFLIE_STOCK_TABLE_H
 #define SIM_CRAZYFLIE_STOCK_TABLE_H
 
@@ -22,7 +22,7 @@
   X(group, axis##i, float, STOCK_F | STOCK_P, 0)                                                             \
   X(group, axis##d, float, STOCK_F | STOCK_P, 0)
 
-// X(group, name, C type, type and bits, value at the start). Gains start as stock_pid_default() has them.
+// X(group, name, C type, type and bits, initial value). Gains start as stock_pid_default() has them.
 #define STOCK_PARAMS(X)                                                                                      \
   X(deck, bcFlow2, uint8_t, STOCK_U8 | STOCK_RO, 1)                                                          \
   X(deck, bcMultiranger, uint8_t, STOCK_U8 | STOCK_RO, 1)                                                    \
@@ -204,7 +204,7 @@ extern const int stock_param_count, stock_log_count;
 
 stock_params_t stock_params_default(void);
 
-// The stock PID flies with these gains.
+// Copies the gains of the table to the stock PID.
 void stock_params_take_gains(const stock_params_t *p, stock_pid_param_t *pid);
 
 #endif

@@ -1,4 +1,4 @@
-// stock_units.c - the border between SI and the units of the Crazyflie's firmware.
+// stock_units.c - conversion between SI and the units of the Crazyflie's firmware.
 #include "crazyflie/stock_units.h"
 
 #include "base/clip.h"
@@ -88,7 +88,7 @@ FEW_INLINE bool any_motor(const few_bits_t holds[PARTS]) {
   return few_any(any);
 }
 
-// The real root of the cubic, which rises everywhere (Cardano): with v = t - b/(3a), t^3 + 3 m t = 2 n.
+// The only real root of the cubic, which rises everywhere (Cardano): with v = t - b/(3a), t^3 + 3 m t = 2 n.
 static double cubic_V(const double c[4], double thrust_N) {
   const double shift = c[2] / (3.0 * c[3]);
   const double m = c[1] / (3.0 * c[3]) - shift * shift;
@@ -97,12 +97,12 @@ static double cubic_V(const double c[4], double thrust_N) {
   return cbrt(n + root) + cbrt(n - root) - shift;
 }
 
-// The same of those motors that are asked for, by Newton's method from the roots of thrusts that were a
-// little different. All at once, for a step is one long division after another: who is there waits for the
-// others.
+// Solves the cubic for the motors in `asked` by Newton's method, which starts from the roots of the last,
+// slightly different thrusts. All motors iterate at once, because a step is one long division after another;
+// a motor that has converged waits for the others.
 static void near_V(const double c[4], const few_t thrust_N[PARTS], const few_bits_t asked[PARTS],
                    few_t v[PARTS]) {
-  const few_t zero = few_all(0.0), near = few_all(1e-9); // the next step would be its square
+  const few_t zero = few_all(0.0), near = few_all(1e-9); // the next step would be about its square
   few_bits_t known[PARTS], goes_on[PARTS];
   for (int i = 0; i < PARTS; i++) {
     known[i] = v[i] > zero;
@@ -135,7 +135,7 @@ static void wanted_V(const stock_power_param_t *p, const few_t thrust_N[PARTS], 
   }
 }
 
-// Volts at the motors for units; which of them run.
+// The volts at the motors for their units, and which motors run.
 static void want(stock_power_t *s, const stock_power_param_t *p, const double unit[PILOT_MOTORS],
                  few_t v[PARTS], few_bits_t runs[PARTS]) {
   few_t wanted_N[PARTS];
@@ -158,7 +158,7 @@ PAIR_COPIES void stock_power_duty(stock_power_t *s, const stock_power_param_t *p
                                   const double unit[PILOT_MOTORS], double vbat_V, double duty[PILOT_MOTORS]) {
   const few_t off = few_all(0.0);
   s->supply_V += SUPPLY_GAIN * (vbat_V - s->supply_V);
-  if (!(s->supply_V >= SUPPLY_MIN_V)) { // not a number stops the motors, too
+  if (!(s->supply_V >= SUPPLY_MIN_V)) { // NaN stops the motors, too
     for (int i = 0; i < PILOT_MOTORS; i++) duty[i] = 0.0;
     return;
   }
@@ -172,7 +172,7 @@ PAIR_COPIES void stock_power_duty(stock_power_t *s, const stock_power_param_t *p
   double over = most[0];
   for (int i = 1; i < FEW_N; i++) over = larger(over, most[i]);
   over = over - STOCK_FULL;
-  // Together, as they are read again: who reads more at once than was written waits for it.
+  // Stored as whole vectors, as they are loaded again: a load that is wider than the store before it waits.
   for (int i = 0; i < PARTS; i++) few_put(duty + FEW_N * i, few_max(v[i] - over, off));
 }
 
