@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define PAD_BYTES      14
-#define PAD_THRUST_MIN 1000 // below it is none
+#define PAD_THRUST_MIN 1000 // less counts as 0
 #define PAD_THRUST_MAX 60000
 
 const pad_param_t pad_default = {.angle_roll = 1, .angle_pitch = 1};
@@ -25,8 +25,7 @@ static void set(commanded_t *c, const setpoint_t *setpoint, commanded_priority_t
   if (priority == COMMANDED_CLIENT) planner_stop(&c->planner);
 }
 
-// --- set points of port 7
-// -----------------------------------------------------------------------------------
+// --- set points of port 7 --------------------------------------------------------------------------------
 
 static float number(const uint8_t *data, int i) {
   float value;
@@ -38,7 +37,7 @@ static float whole(const uint8_t *data, int i) {
   return (float)(int16_t)(data[2 * i] | data[2 * i + 1] << 8);
 }
 
-// Roll, pitch, yaw rate, and height or climb.
+// Roll, pitch and yaw rate; the caller adds height or climb rate.
 static void by_angles(setpoint_t *sp, const uint8_t *data, float yaw_sign) {
   sp->mode.roll = sp->mode.pitch = modeAbs;
   sp->attitude.roll = number(data, 0);
@@ -59,7 +58,7 @@ static void at_height(setpoint_t *sp, const uint8_t *data, float yaw_sign) {
   sp->position.z = number(data, 3);
 }
 
-// Speeds of x and y, then those of z and yaw.
+// Velocity along x, y and z, then yaw rate.
 static void by_velocity(setpoint_t *sp, const uint8_t *data, float yaw_sign) {
   sp->mode.x = sp->mode.y = sp->mode.z = sp->mode.yaw = modeVelocity;
   sp->velocity = (velocity_t){0, number(data, 0), number(data, 1), number(data, 2)};
@@ -82,8 +81,8 @@ static void at_position(setpoint_t *sp, const uint8_t *data) {
   sp->attitude.yaw = number(data, 3);
 }
 
-// Three parts of 10 bits, sign and nine of magnitude over 1/sqrt(2); two bits say which part, the largest, is
-// left out.
+// A quaternion: three components of 10 bits, sign and nine of magnitude, 511 for 1/sqrt(2); the two highest
+// bits say which component, the largest, is left out.
 static quaternion_t quat_of(uint32_t bits) {
   const unsigned largest = bits >> 30;
   float part[4], left = 1.0f;
@@ -98,7 +97,7 @@ static quaternion_t quat_of(uint32_t bits) {
   return (quaternion_t){.x = part[0], .y = part[1], .z = part[2], .w = part[3]};
 }
 
-// Position, speed, acceleration in mm, the attitude, and mrad/s.
+// Position, velocity and acceleration (mm, s), attitude, rates (mrad/s).
 static void full_state(setpoint_t *sp, const uint8_t *data) {
   sp->mode.x = sp->mode.y = sp->mode.z = sp->mode.quat = modeAbs;
   const float k = 0.001f, to_deg = 0.18f / 3.14159265f;
@@ -128,7 +127,7 @@ enum {
   STOP,
   OLD_VELOCITY,
   OLD_HEIGHT,
-  RADIO_CONTROL, // of a transmitter: not here
+  RADIO_CONTROL, // of an RC transmitter: not supported
   CLIMB,
   OLD_HOVER,
   FULL_STATE,
@@ -157,7 +156,7 @@ static bool decode(setpoint_t *sp, int kind, const uint8_t *data) {
   }
 }
 
-// Not a number, or without end: nobody could fly it.
+// False if a number is NaN or infinite: nobody could fly it.
 static bool is_finite(const setpoint_t *sp) {
   const float all[] = {sp->position.x,   sp->position.y,        sp->position.z,         sp->velocity.x,
                        sp->velocity.y,   sp->velocity.z,        sp->attitude.roll,      sp->attitude.pitch,

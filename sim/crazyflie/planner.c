@@ -61,7 +61,7 @@ static int fly_own(planner_t *p, planner_state_t state, piece_t piece, uint32_t 
   return 0;
 }
 
-// The vehicle may have been moved in memory.
+// Sets the pointer to `own` anew, since the vehicle may have been moved in memory.
 static const trajectory_t *path_of(planner_t *p) {
   if (p->on_own) p->path.memory = (const uint8_t *)&p->own;
   return &p->path;
@@ -105,11 +105,11 @@ typedef struct {
   float angle_rad, r0_m, rf_m, climb_m, duration_s;
 } spiral_t;
 
-// On a circle whose radius changes evenly: place, speed and acceleration at phase f, seen from its middle.
-// Flying forward the middle is at the side, flying sideways ahead.
+// Position, velocity and acceleration relative to the centre, at heading f on a circle whose radius changes
+// at a constant rate. In forward flight the centre is at the side, in sideways flight ahead.
 static void on_spiral(const spiral_t *s, float f, float r_m, float spin_radps, float dr_mps, goal_t *g) {
   const float side = s->clockwise ? 1.0f : -1.0f;
-  const float a = f + (s->sideways ? PI_F : PI_F / 2.0f); // from the middle to the vehicle, for clockwise
+  const float a = f + (s->sideways ? PI_F : PI_F / 2.0f); // from the centre to the vehicle, if clockwise
   const float c = side * cosf(a), q = side * sinf(a);
   g->at[0] = r_m * c, g->at[1] = r_m * q;
   g->speed[0] = dr_mps * c - r_m * spin_radps * q;
@@ -145,7 +145,7 @@ typedef struct {
 } start_t;
 
 static int start(planner_t *p, const start_t *s, uint32_t now_ms) {
-  if (s->id >= PLANNER_TRAJECTORIES) return 0; // as the firmware
+  if (s->id >= PLANNER_TRAJECTORIES) return 0; // no error, as in the firmware
   const planner_entry_t *const e = &p->entry[s->id];
   if (!e->is_there || e->offset > PLANNER_MEMORY) return 0;
   const bool compressed = e->type == TYPE_COMPRESSED;
@@ -171,7 +171,7 @@ static int start(planner_t *p, const start_t *s, uint32_t now_ms) {
 
 // --- commands ---------------------------------------------------------------------------------------------
 
-// Little-endian and packed, as the client sends them.
+// Reads little-endian, packed numbers, as the client sends them.
 typedef struct {
   const uint8_t *at;
 } reader_t;
@@ -240,7 +240,7 @@ static int take_start(planner_t *p, bool old, reader_t r, uint32_t now_ms) {
   return start(p, &s, now_ms);
 }
 
-// Bytes behind the command's number.
+// Bytes after each command's number.
 static const int size_of[COMMANDS] = {
     [SET_GROUPS] = 1,     [OLD_TAKE_OFF] = 9, [OLD_LAND] = 9,  [STOP] = 1,  [OLD_GO_TO] = 22,
     [OLD_START] = 8,      [DEFINE] = 8,       [TAKE_OFF] = 14, [LAND] = 14, [TAKE_OFF_AT_SPEED] = 15,
@@ -279,7 +279,7 @@ int planner_land(planner_t *p, float height_m, float speed_mps, bool relative, u
   uint8_t command[16] = {LAND_AT_SPEED, 0};
   memcpy(command + 2, &height_m, 4);
   command[6] = relative;
-  command[11] = true; // the heading that it has
+  command[11] = true; // keep the present heading
   memcpy(command + 12, &speed_mps, 4);
   return planner_command(p, command, sizeof command, now_ms);
 }
@@ -317,7 +317,7 @@ bool planner_finished(const planner_t *p, uint32_t now_ms) {
 static setpoint_t setpoint_at(const goal_t *g) {
   const float up = (g->acc[2] + GRAVITY_F) /
                    sqrtf(g->acc[0] * g->acc[0] + g->acc[1] * g->acc[1] +
-                         (g->acc[2] + GRAVITY_F) * (g->acc[2] + GRAVITY_F)); // of the thrust's direction
+                         (g->acc[2] + GRAVITY_F) * (g->acc[2] + GRAVITY_F)); // z of the thrust's direction
   return (setpoint_t){
       .mode = {.x = modeAbs, .y = modeAbs, .z = modeAbs, .yaw = modeAbs},
       .position = {0, g->at[0], g->at[1], g->at[2]},

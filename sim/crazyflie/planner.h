@@ -2,7 +2,7 @@
 // set point on the way.
 //
 // Source: bitcraze/crazyflie-firmware 2a18fc29, crtp_commander_high_level.c, planner.c. Own code. Time is
-// that of the millisecond counter, not a float that grows coarse.
+// counted in milliseconds, not in a float, whose resolution falls as it grows.
 #ifndef SIM_CRAZYFLIE_PLANNER_H
 #define SIM_CRAZYFLIE_PLANNER_H
 
@@ -16,8 +16,8 @@
 typedef enum { PLANNER_IDLE, PLANNER_FLYING, PLANNER_LANDING, PLANNER_DISABLED } planner_state_t;
 
 typedef struct {
-  float takeoff_mps, landing_mps; // where a command names no speed
-  uint8_t groups;                 // those that this vehicle is in, as bits
+  float takeoff_mps, landing_mps; // used where a command names no speed
+  uint8_t groups;                 // that this vehicle is in, as bits
 } planner_param_t;
 
 extern const planner_param_t planner_default;
@@ -32,8 +32,8 @@ typedef struct {
 typedef struct {
   planner_param_t param;
   planner_state_t state;
-  goal_t last;       // on the way: the last set point; else the estimate
-  trajectory_t path; // what is flown; its memory is `memory`, or `own`
+  goal_t last;       // in flight the last set point, else the estimate
+  trajectory_t path; // what is flown: in `memory`, or `own` (on_own)
   bool on_own;
   piece_t own;
   uint32_t begin_ms;
@@ -44,19 +44,20 @@ typedef struct {
 
 void planner_init(planner_t *p);
 
-// A command as it comes over the link, its number first; size bytes. Returns 0, or the error that the
-// firmware answers: 16 blocked, 8 not known or too short, 1 not now.
+// Takes a command as it comes over the link, its number first; size bytes. Returns 0, or the error that the
+// firmware answers: 16 blocked, 8 not known, too short or not valid, 1 not possible now.
 int planner_command(planner_t *p, const uint8_t *command, int size, uint32_t now_ms);
 
-// Lands at a height above the start, at this speed; nonzero: it will not.
+// Lands at this speed, at height_m above the start or (relative) below the present height. Returns as
+// planner_command.
 int planner_land(planner_t *p, float height_m, float speed_mps, bool relative, uint32_t now_ms);
 
-void planner_block(planner_t *p, bool block); // stops what is flown
-void planner_disable(planner_t *p);           // somebody else sets points
+void planner_block(planner_t *p, bool block); // true: stops the flight, refuses new ones
+void planner_disable(planner_t *p);           // no set points until a stop or a new flight
 void planner_stop(planner_t *p);
-void planner_tell(planner_t *p, const state_t *state); // where the next command starts from
+void planner_tell(planner_t *p, const state_t *state); // the next command starts here
 
-// At 100 Hz. True: *set is set, to nothing while it is idle.
+// To be called at 100 Hz. True: *set is a set point, all off while idle. False: disabled.
 bool planner_setpoint(planner_t *p, const state_t *state, uint32_t now_ms, setpoint_t *set);
 
 bool planner_active(const planner_t *p);

@@ -8,11 +8,12 @@
 
 // --- one piece --------------------------------------------------------------------------------------------
 
-// With h, v and a: what is left of way, speed and acceleration at the end, in units of the duration, once the
-// start's have been flown on. No jerk at either end gives, in the time's share u,
+// h, v and a: position, velocity and acceleration at the end, less those of the start flown on at its
+// acceleration, with the duration as unit of time. To make them up with no jerk at either end, the piece
+// adds, at share u of the duration,
 //
-//   u^4 (35 h - 15 v + 5/2 a) + u^5 (-84 h + 39 v - 7 a) + u^6 (70 h - 34 v + 13/2 a) + u^7 (-20 h + 10 v - 2
-//   a)
+//   u^4 (35 h - 15 v + 5/2 a) + u^5 (-84 h + 39 v - 7 a) +
+//   u^6 (70 h - 34 v + 13/2 a) + u^7 (-20 h + 10 v - 2 a)
 static void between(float c[N], float T, const float from[3], const float to[3]) {
   memset(c, 0, N * sizeof *c);
   c[0] = from[0], c[1] = from[1], c[2] = from[2] / 2.0f;
@@ -55,9 +56,10 @@ goal_t piece_at(const piece_t *piece, float t_s) {
 
 // --- compressed pieces ------------------------------------------------------------------------------------
 
-// Four start values, then pieces: a byte with two bits an axis for how many control points of a Bezier curve
-// follow (its first is where the piece before ended), milliseconds, the points of x, y, z and yaw. All in 16
-// bits: mm, and a tenth of a degree. A piece of 0 ms is the end.
+// Format: four start values, then pieces. A piece has a byte with two bits an axis that say how many control
+// points of a Bezier curve follow (points_of; the first point is the end of the piece before), its duration
+// in ms, and the points of x, y, z and yaw. Numbers have 16 bits, lengths in mm, angles in tenths of a
+// degree. A piece of 0 ms is the end.
 #define START_BYTES 8
 #define ANGLE_UNIT  (1800.0f / 3.14159265f)
 
@@ -82,12 +84,12 @@ static bool reel_open(reel_t *r, const trajectory_t *trajectory) {
   return true;
 }
 
-// Control points x of degree n, over T: to powers of the seconds.
+// Converts a Bezier curve of degree n, control points x, duration T, to powers of the seconds.
 static void from_bezier(float c[N], const float *x, int n, float T) {
   memset(c, 0, N * sizeof *c);
-  float over = 1.0f, falling = 1.0f; // T^j, n (n-1) .. (n-j+1)
+  float over = 1.0f, falling = 1.0f; // j! T^j, n (n-1) .. (n-j+1)
   for (int j = 0; j <= n; j++) {
-    float sum = 0.0f, choose = 1.0f; // j over i; the j! of both cancels but for one
+    float sum = 0.0f, choose = 1.0f; // binomial coefficient, j over i
     for (int i = 0; i <= j; i++) {
       sum += ((i + j) % 2 ? -choose : choose) * x[i];
       choose = choose * (float)(j - i) / (float)(i + 1);
@@ -98,7 +100,7 @@ static void from_bezier(float c[N], const float *x, int n, float T) {
   }
 }
 
-// The next piece; of 0 s at the end. False: it does not fit into the memory.
+// Reads the next piece, of 0 s at the end. False: the memory ends before it.
 static bool reel_next(reel_t *r, piece_t *piece) {
   *piece = (piece_t){.duration_s = 0.0f};
   for (int i = 0; i < TRAJECTORY_AXES; i++) piece->c[i][0] = r->end[i];
@@ -153,7 +155,7 @@ static void stop(goal_t *goal) {
   memset(goal->acc, 0, sizeof goal->acc);
 }
 
-// t_s of its own time.
+// t_s: in the trajectory's own time, before the timescale.
 static goal_t pieces_at(const trajectory_t *t, float t_s) {
   piece_t piece = {.duration_s = 0.0f};
   for (int k = 0; k < t->n_piece; k++) {
