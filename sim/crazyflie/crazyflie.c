@@ -9,8 +9,8 @@
 
 // --- opening --------------------------------------------------------------------------------------------
 
-// The stock controller of this project in the place of the firmware's. Like that one it leaves what it
-// commanded in *control in the steps in which it does not run.
+// This project's stock PID in place of the firmware's. Like the firmware's, it keeps its last command in
+// *control in the steps in which it does not run.
 static void stock(void *context, control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
                   const state_t *state, uint32_t step) {
   (void)sensors, (void)state;
@@ -44,7 +44,8 @@ static void take_model(crazyflie_t *c, const model_t *model) {
   c->around.thrust_max_N = (float)c->firmware.thrust_max_N;
   for (int i = 0; i < STAND_IN_VOLT_N; i++) c->around.volt_N[i] = (float)c->firmware.volt_cubic[i];
   if (c->compensates) return;
-  // A command is duty: what it amounts to the firmware does not know, and so no voltage is too low for it.
+  // A command is duty. The firmware does not know the thrust that results, so the map gives full thrust at
+  // any voltage: none counts as too low.
   memset(c->around.volt_N, 0, sizeof c->around.volt_N);
   c->around.volt_N[0] = (float)c->firmware.thrust_max_N;
 }
@@ -61,7 +62,7 @@ void crazyflie_init(crazyflie_t *c, const model_t *model) {
 
 void crazyflie_home(crazyflie_t *c) {
   if (c->bring_home) c->bring_home(c->home_context);
-  c->touched = true; // after its state has come
+  c->touched = true; // once its state is here
 }
 
 void crazyflie_start(crazyflie_t *c) {
@@ -80,7 +81,6 @@ void crazyflie_start(crazyflie_t *c) {
 
 // --- looking ----------------------------------------------------------------------------------------------
 
-// The app's static state is this vehicle's copy of it.
 const void *crazyflie_at(const crazyflie_t *c, const void *address) {
   return stand_in_own(&c->around, address);
 }

@@ -21,7 +21,7 @@
     (to).z = (float)((scale) * (from).z);                                                                    \
   } while (0)
 
-// The angles cost more than all the rest, and in most milliseconds the estimate does not turn.
+// Skipped while the estimate does not turn, as in most milliseconds: the angles cost more than all the rest.
 static void take_attitude(crazyflie_t *c, dq_t q_wb) {
   if (same_in_bits(&q_wb, &c->q_wb, sizeof q_wb)) return;
   c->q_wb = q_wb;
@@ -67,7 +67,7 @@ static setpoint_t order(const crazyflie_t *c, const pilot_setpoint_t *set) {
   return sp;
 }
 
-// Most set points stand for seconds: the firmware's is made when another one is asked for.
+// Converts the set point only when it has changed: most stay for seconds.
 static void take_order(crazyflie_t *c, const pilot_setpoint_t *set) {
   if (ANY(!c->ordered) || !same_in_bits(set, &c->asked, sizeof *set)) {
     memcpy(&c->asked, set, sizeof *set);
@@ -76,7 +76,7 @@ static void take_order(crazyflie_t *c, const pilot_setpoint_t *set) {
   c->setpoint.timestamp = c->around.clock_ms;
 }
 
-// The firmware cuts metres, a float, to whole millimetres in 16 bits.
+// Truncates metres to whole millimetres in 16 bits, as the firmware does.
 static uint16_t whole_mm(float m) {
   return (uint16_t)fminf(fmaxf(m * 1000.0f, 0.0f), 65535.0f);
 }
@@ -102,7 +102,7 @@ static void distribute(const control_t *control, double unit[PILOT_MOTORS]) {
   }
   const few_t none = few_all(0.0), all = few_all(1.0);
   for (int i = 0; i < PILOT_MOTORS; i++) unit[i] = (double)control->normalizedForces[i];
-  for (int i = 0; i < PILOT_MOTORS; i += FEW_N) // NaN becomes none
+  for (int i = 0; i < PILOT_MOTORS; i += FEW_N) // NaN becomes 0
     few_put(unit + i, few_trunc(UNIT_MAX * few_min(few_max(few_of(unit + i), none), all)));
 }
 
@@ -122,7 +122,7 @@ static void drive(crazyflie_t *c, const pilot_in_t *in, double motor_N[PILOT_MOT
   }
 }
 
-// Whoever flew before has commanded this.
+// Starts with the forces that the controller before commanded.
 static void take_over(crazyflie_t *c, const pilot_in_t *in) {
   c->control.controlMode = controlModeForce;
   bool flies = false;
@@ -155,7 +155,7 @@ static void supervise(crazyflie_t *c) {
   if (c->supervised.state == SUPERVISED_CRASHED) stand_in_print("SUP: Crashed, recovery required\n");
 }
 
-// Whether it changed anything.
+// Overrides the set point to level out or to stop. True if it did.
 static bool override(const supervised_t *s, setpoint_t *set) {
   const bool levels = s->state == SUPERVISED_LEVEL_OUT, stops = !levels && !supervised_motors_run(s);
   FOR_WHOM(levels, set) {
@@ -181,7 +181,7 @@ static pilot_mode_t pilot_mode(stab_mode_t mode) {
   return mode == modeAbs ? PILOT_POSITION : mode == modeVelocity ? PILOT_VELOCITY : PILOT_OFF;
 }
 
-// The firmware's set point as the host's controllers take it: the way back of order().
+// Converts the firmware's set point to that of the host's controllers: the inverse of order().
 static pilot_setpoint_t as_pilot(const crazyflie_t *c, const setpoint_t *sp) {
   const double k = RAD_PER_DEG;
   const bool tilts = sp->mode.roll == modeAbs && sp->mode.pitch == modeAbs;
@@ -213,7 +213,7 @@ PAIR_COPIES void crazyflie_ms(crazyflie_t *c, const pilot_in_t *in, double motor
   FOR_WHOM(!may, &c->setpoint) c->setpoint = (setpoint_t){.timestamp = 0};
   FOR_WHOM(in->step % SUPERVISED_PERIOD_MS == 0, &c->supervised) supervise(c);
   const bool overridden = override(&c->supervised, &c->setpoint);
-  c->ordered = !c->command && may && !overridden; // else it is made anew
+  c->ordered = !c->command && may && !overridden; // else the next call converts it again
   c->around.can_fly = supervised_can_fly(&c->supervised);
   c->around.flying = supervised_flies(&c->supervised);
   c->around.motors_allowed = supervised_motors_run(&c->supervised);

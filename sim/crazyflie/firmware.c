@@ -58,7 +58,7 @@ static void select_controller(firmware_t *f) {
 }
 
 static void run_indi(firmware_t *f, control_t *control) {
-  double motor_N[PILOT_MOTORS]; // the firmware's power distribution makes its own
+  double motor_N[PILOT_MOTORS]; // not used: the firmware's power distribution computes the forces
   stock_indi_step(&f->indi, f->vehicle.now, motor_N);
   const stock_command_t *const c = &f->indi.command;
   control->controlMode = controlModeLegacy;
@@ -123,7 +123,7 @@ done_t firmware_open(firmware_t *f, const model_t *model, why_t *why) {
   memset(f, 0, sizeof *f);
   crazyflie_t *const c = &f->vehicle;
   crazyflie_init(c, model);
-  stand_in = &c->around; // what is printed before its first millisecond is its own
+  stand_in = &c->around; // so that its console gets what is printed before its first millisecond
   f->params = f->params_default = stock_params_default();
   f->app_default = c->app;
   f->runs = CONTROLLER_APP;

@@ -4,7 +4,8 @@
 //   link -> commander, planner -> supervisor -> app (6), stock PID (1), stock INDI (3) -> power distribution
 //
 // in the order of the firmware's stabilizer task, every millisecond. Source: bitcraze/crazyflie-firmware
-// 2a18fc29, stabilizer.c. Controllers that the host does not have (2, 4, 5) are refused on the console.
+// 2a18fc29, stabilizer.c. Controllers that the host does not have (2, 4, 5) are refused, with a word on the
+// console.
 #ifndef SIM_CRAZYFLIE_FIRMWARE_H
 #define SIM_CRAZYFLIE_FIRMWARE_H
 
@@ -19,10 +20,10 @@ enum { CONTROLLER_AUTO = 0, CONTROLLER_PID = 1, CONTROLLER_INDI = 3, CONTROLLER_
 typedef struct {
   const stock_row_t *param, *log;
   int n_param, n_log;
-  void *(*params)(void *context); // what the rows' offsets count from
+  void *(*params)(void *context); // base address of the rows' offsets
   void *(*logs)(void *context);
-  const double *param_default;               // n_param
-  void (*written)(void *context, int param); // number in `param`; may change the value again
+  const double *param_default;               // n_param numbers
+  void (*written)(void *context, int param); // after a client wrote this row of `param`; may change the value
 } firmware_more_t;
 
 typedef struct firmware {
@@ -31,37 +32,39 @@ typedef struct firmware {
   stock_indi_t indi;
   stock_params_t params;
   stock_logs_t logs;
-  bool emergency; // asked for over the link; until power-off
-  // What the world may tell it beside pilot_in_t.
-  float variance[6]; // of position and velocity, of the estimator
-  // Parameters and logs that are not the firmware's: of what simulates it. None without.
+  bool emergency; // requested over the link; lasts until power-off
+  // Set by whoever simulates it, beside pilot_in_t.
+  float variance[6]; // of the estimator: position x, y, z, velocity x, y, z
+  // Parameters and logs of the simulation, not of the firmware; null: none.
   const firmware_more_t *more;
   void *more_context;
-  // The client is told of a parameter that was changed on board: its number; null: nobody listens.
+  // Called with the number of a parameter that was changed on board, to tell the client; null: nobody
+  // listens.
   void (*changed)(void *context, int param);
   void *changed_context;
-  // Somebody on board rests for some milliseconds in a write of a parameter; null: returns at once. It may
-  // call firmware_ms() that often.
+  // Called when the app calls vTaskDelay() outside its own task, in a parameter's callback; may call
+  // firmware_ms() ms times. Null: the delay returns at once.
   void (*rest)(void *context, uint32_t ms);
   void *rest_context;
   // Not for callers.
   task_switch_t *task;
   uint8_t runs;     // CONTROLLER_*
-  uint32_t good_ms; // when the battery was last above pm.lowVoltage
+  uint32_t good_ms; // when the battery was last at pm.lowVoltage or above
   stock_params_t params_default;
   glue_t app_default;
 } firmware_t;
 
-// A vehicle that is switched on. model: as crazyflie_init. It must stay where it is. FAILED: no memory.
+// Makes *f a vehicle that is switched on. model: as in crazyflie_init. *f must stay where it is. FAILED: no
+// memory.
 MUST_CHECK done_t firmware_open(firmware_t *f, const model_t *model, why_t *why);
-// Its first millisecond comes next: parameters stand as they were stored.
+// Starts the vehicle: to be called before its first millisecond, once stored parameters are in place.
 void firmware_start(firmware_t *f);
 void firmware_close(firmware_t *f);
 
-// One millisecond: as crazyflie_ms. in->set is not looked at.
+// Runs one millisecond, as crazyflie_ms does, with the commander's set point: in->set is not used.
 void firmware_ms(firmware_t *f, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
 
-// A high-level command, as planner_command takes it; its result.
+// Passes a high-level command to planner_command and returns its result.
 int firmware_high_level(firmware_t *f, const uint8_t *data, int size);
 
 uint32_t firmware_now_ms(const firmware_t *f);
@@ -69,7 +72,7 @@ uint32_t firmware_now_ms(const firmware_t *f);
 // The log supervisor.info.
 uint16_t firmware_info(const firmware_t *f);
 
-// What was printed since the last call, at most size - 1 characters; how many.
+// Takes at most size - 1 characters of what was printed and not yet taken; returns how many.
 int firmware_console(firmware_t *f, char *text, int size);
 
 // --- parameters and logs by number, 0 and on ---------------------------------------------------------------
@@ -88,12 +91,12 @@ int firmware_log_find(const firmware_t *f, const char *full_name);
 
 double firmware_param(const firmware_t *f, int i);
 double firmware_param_default(const firmware_t *f, int i);
-// As it stands in the memory at power-on: nobody is called back.
+// Writes the value as the stored memory does at power-on: no callback is called.
 void firmware_param_put(firmware_t *f, int i, double value);
-// As a client writes it: what depends on it follows, the app is called back.
+// Writes the value as a client does: the callback of the app or of `more` is called.
 void firmware_param_set(firmware_t *f, int i, double value);
 
-// Brings the stock firmware's logs up to date; then values of one instant.
+// Brings the stock firmware's logs up to date. firmware_log() then returns values of one instant.
 void firmware_look(firmware_t *f);
 double firmware_log(const firmware_t *f, int i);
 

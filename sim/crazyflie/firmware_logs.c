@@ -7,9 +7,9 @@
 #include "values.h"
 #include <math.h>
 
-#define EMPTY_V        3.0 // battery level: 0 of 10
-#define FULL_V         4.1
-#define LOW_BATTERY_MS 5000 // so long below pm.lowVoltage
+#define EMPTY_V        3.0  // battery level 0 %
+#define FULL_V         4.1  // 100 %
+#define LOW_BATTERY_MS 5000 // below pm.lowVoltage for longer is low power
 
 #define TAKE(to, a, b, c, from)                                                                              \
   do {                                                                                                       \
@@ -25,7 +25,7 @@ static void look_at_estimate(stock_logs_t *l, const firmware_t *f) {
   TAKE(l->stateEstimate, vx, vy, vz, s->velocity);
   TAKE(l->stateEstimate, qx, qy, qz, q);
   l->stateEstimate_qw = q.w;
-  // Specific force turned into the world, without gravity; g.
+  // Specific force in world axes, gravity taken off; g.
   const Axis3f a = f->vehicle.sensors.acc;
   l->stateEstimate_ax = a.x * (1 - 2 * (q.y * q.y + q.z * q.z)) +
                         2 * (a.y * (q.x * q.y - q.z * q.w) + a.z * (q.x * q.z + q.y * q.w));
@@ -50,10 +50,10 @@ static void look_at_target(stock_logs_t *l, const setpoint_t *sp) {
   TAKE(l->posCtl, targetVX, targetVY, targetVZ, sp->velocity);
   l->ctrltarget_roll = sp->attitude.roll;
   l->ctrltarget_pitch = sp->attitude.pitch;
-  l->ctrltarget_yaw = sp->attitudeRate.yaw; // as the firmware has it
+  l->ctrltarget_yaw = sp->attitudeRate.yaw; // as in the firmware
 }
 
-// What the stock PID had last: while another one flies it stands still.
+// The last values of the stock PID. They stand still while another controller flies.
 static void look_at_stock(stock_logs_t *l, const stock_pid_t *pid) {
   const stock_command_t *const c = &pid->command;
   l->controller_cmd_roll = (float)c->roll, l->controller_cmd_pitch = (float)c->pitch;
@@ -71,7 +71,8 @@ static void look_at_stock(stock_logs_t *l, const stock_pid_t *pid) {
   l->controller_accelz = (float)pid->acc_z_g;
 }
 
-// Logged whoever flies: in the app's mode they are motor 3's share, and half the bits of motor 2's.
+// Logged whichever controller flies. control_t is a union: in the app's mode these are the command of motor
+// 3, and half the bits of that of motor 2.
 static void look_at_command(stock_logs_t *l, const control_t *c) {
   l->stabilizer_thrust = c->thrust;
   l->controller_ctr_yaw = c->yaw;
@@ -91,7 +92,7 @@ static void look_at_battery(stock_logs_t *l, firmware_t *f) {
   l->pm_vbat = volt;
   l->pm_vbatMV = (uint16_t)(1000.0f * volt);
   l->pm_batteryLevel = (uint8_t)(10.0 * trunc(10.0 * fmin(fmax(share, 0.0), 1.0)));
-  l->pm_state = now_ms - f->good_ms > LOW_BATTERY_MS ? 3 : 0; // low power; battery
+  l->pm_state = now_ms - f->good_ms > LOW_BATTERY_MS ? 3 : 0; // 3: low power; 0: on battery
 }
 
 static void look_at_supervisor(stock_logs_t *l, const firmware_t *f) {

@@ -1,16 +1,16 @@
 // firmware_rows.c - the parameters and logs of a firmware by number: the stock firmware's own, the app's, and
-// those of whoever simulates it.
+// the simulation's.
 #include "firmware.h"
 
 #include "sections.h"
 #include "values.h"
 #include <string.h>
 
-// Where a number leads to.
+// What has a number: a row of a table, or a parameter or log of the app.
 typedef struct {
-  const stock_row_t *row; // of a table, at `base`; or
+  const stock_row_t *row; // null: one of the app's, as follows
   const section_param_t *param;
-  const section_log_t *log; // of the app
+  const section_log_t *log;
   const char *group;
   void *at;
 } place_t;
@@ -106,7 +106,7 @@ double firmware_param_default(const firmware_t *f, int i) {
   return values_of_param(firmware_param_row(f, i).type, as_built + ((const char *)p.at - from));
 }
 
-// What stands in a table takes effect where it is used.
+// Hands the stock parameters to the modules that use them.
 static void take_params(firmware_t *f) {
   const stock_params_t *const p = &f->params;
   f->commanded.planner.param =

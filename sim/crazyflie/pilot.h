@@ -1,9 +1,9 @@
-// pilot.h - what flies: measurements and a set point in, four motor forces out, every millisecond (on the
-// vertical axis alone: every period of the plan). The flight code and its peers alike.
+// pilot.h - the interface of whatever flies, the flight code and its peers alike: measurements and a set
+// point in, four motor forces out, every millisecond (on the vertical axis alone: every period of the plan).
 //
 // World x, y level, z up; body x forward, y left, z up. Motors as on the Crazyflie, seen from above: m1 front
-// right, m2 back right, m3 back left, m4 front left; the air turns the body clockwise for m1 and m3 and
-// counter-clockwise for m2 and m4. Who does not run at every call keeps its last output.
+// right, m2 back right, m3 back left, m4 front left; the drag of m1 and m3 turns the body clockwise, that of
+// m2 and m4 counter-clockwise. A pilot that does not run at every call keeps its last output.
 #ifndef SIM_CRAZYFLIE_PILOT_H
 #define SIM_CRAZYFLIE_PILOT_H
 
@@ -28,11 +28,11 @@ typedef struct {
   bool vel_in_body; // vel_mps is along the heading: x forward, y left, z up; else along the world's axes
   d3_t vel_mps;
   d3_t acc_w_mps2;               // without gravity
-  double roll_rad, pitch_up_rad; // if x or y is off; 0: level. Right-hand about x; nose up
+  double roll_rad, pitch_up_rad; // used if x or y is off; 0: level. Right-hand about x; nose up
   bool yaw_by_rate;
   double yaw_rad;        // counter-clockwise from above, any number of turns; unless yaw_by_rate
   double yaw_rate_radps; // if yaw_by_rate
-  double thrust_N;       // of all motors together, mode[2] off; 0: the motors stop
+  double thrust_N;       // of all motors together, used if z is off; 0: the motors stop
 } pilot_setpoint_t;
 
 typedef struct {
@@ -42,34 +42,34 @@ typedef struct {
   d3_t pos_w_m, vel_w_mps;        // as estimated
   dq_t q_wb;                      // as estimated; of length 1
   double applied_N[PILOT_MOTORS]; // command that was applied since the last call, after its limits
-  double rotors_N; // what all rotors would give in free air; no Crazyflie measures it: for peers
+  double rotors_N; // thrust of all rotors in free air; for peers, since no Crazyflie measures it
   double vbat_V;   // as measured
-  bool range_new;  // range_m was not there at the last call
+  bool range_new;  // range_m is a sample that the last call did not have
   double range_m;  // upward range sensor, along body z; NaN: no valid distance
-  bool down_new;   // likewise
+  bool down_new;   // likewise, of down_m
   double down_m;   // downward range sensor
   pilot_setpoint_t set;
 } pilot_in_t;
 
-// What a pilot thinks, for logs. NaN or 0 where it has no such thought.
+// What a pilot believes, for logs. NaN or 0 where it has no such estimate.
 typedef struct {
   double zc_m;               // ceiling distance; NaN: none known
   double ceiling_z_m;        // height of the ceiling, latched (flight/hold.h); NaN: none known
   double ratio, slope_per_m; // of the believed curve
-  double y;                  // the ratio that taught the curve at this tick; NaN: none did
+  double y;                  // the ratio that the curve learned from at this tick; NaN: none
   double weights[CURVE_WEIGHTS];
   double variance[CURVE_WEIGHTS];    // of the weights
   unsigned guard_now, guard_latched; // reasons of the guard (flight/guard.h)
 } thoughts_t;
 
-// Who stands around a vehicle: edits what it gets (plan_t.edit), and looks at it.
+// For code around a vehicle that edits the pilot's input (plan_t.edit) and reads the app's state.
 typedef struct {
   size_t from, to;
 } pilot_part_t;
 typedef struct {
-  const pilot_part_t *part; // of the app's state (glue_t), in bytes: what is looked at between milliseconds
+  const pilot_part_t *part; // of the app's state (glue_t), in bytes: parts that are read between milliseconds
   int n;
-  // Behind each millisecond of the vehicle in which step() is not called; in: as it was edited.
+  // Called after each millisecond of the vehicle in which step() is not called; in: as edited.
   void (*after)(void *state, const pilot_in_t *in, const double motor_N[PILOT_MOTORS]);
 } pilot_around_t;
 
@@ -78,15 +78,16 @@ typedef struct {
   // Fills motor_N, m1..m4, each finite.
   void (*step)(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]);
   void (*reset)(void *state); // as after power-on; parameters stay
-  // What it thinks, over what is there already; null: it cannot be asked.
+  // Overwrites the members that the pilot knows; null: it tells nothing.
   void (*tell)(const void *state, thoughts_t *thoughts);
-  // Who is nothing but crazyflie_ms() of this vehicle, and keeps its log: then with others
+  // Set if step() only runs crazyflie_ms() of this vehicle and keeps its log: such pilots can fly together
   // (flight/together.h).
-  struct crazyflie *vehicle; // null: another
-  // A row of this millisecond, at its end; null: never. Who ever does keeps that of step 1.
+  struct crazyflie *vehicle; // null: any other pilot
+  // True if the pilot keeps a row at the end of this millisecond; null: never. One that ever does keeps that
+  // of step 1.
   bool (*keeps)(const void *state, uint32_t step);
   void (*keep)(void *state);
-  const pilot_around_t *around; // null: nobody stands there who looks at its state
+  const pilot_around_t *around; // null: no such code reads its state
 } pilot_t;
 
 #endif

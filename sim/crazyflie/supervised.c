@@ -5,11 +5,11 @@
 
 #include <math.h>
 
-#define FLYING_MS      2000 // so long after the last thrust it still flies
-#define LEVEL_OUT_MS   500  // age of a set point
-#define LOCK_MS        2000 // age of a set point
-#define FED_MS         1000 // age of the watchdog's food
-#define FREE_FALL_G    0.1f // less on each axis is no tilt
+#define FLYING_MS      2000 // it flies until this long after the last thrust
+#define LEVEL_OUT_MS   500  // a set point older than this: level out
+#define LOCK_MS        2000 // a set point older than this: lock
+#define FED_MS         1000 // the watchdog fed longer ago than this: stop
+#define FREE_FALL_G    0.1f // less on every axis is free fall
 #define TILTED_G       0.5f // on z: 60 degrees
 #define TILTED_MS      1000
 #define UPSIDE_DOWN_G  -0.2f
@@ -21,16 +21,17 @@ enum {
   IS_ARMED = 1 << 0,
   IS_FLYING = 1 << 1,
   IS_TUMBLED = 1 << 2,
-  IS_STALE = 1 << 3,   // the set point: level out
-  IS_LOST = 1 << 4,    // the set point: lock
+  IS_STALE = 1 << 3,   // the set point is old: level out
+  IS_LOST = 1 << 4,    // the set point is too old: lock
   IS_STOPPED = 1 << 5, // emergency stop
   IS_CRASHED = 1 << 6,
-  IS_OVERDUE = 1 << 7, // armed, and does not fly
-  IS_DOWN = 1 << 8,    // has landed long ago
+  IS_OVERDUE = 1 << 7, // armed for too long without flying
+  IS_DOWN = 1 << 8,    // landed long ago
 };
 
-// The first row whose condition holds is taken: one of `any` is, or one of `lacks` is not, or all of `all`
-// are and none of `none`; never if one of `but` is. A row without any condition always holds.
+// The first row that holds is taken. A row with `any` or `lacks` holds if a bit of `any` is set or one of
+// `lacks` is clear; any other row, if all of `all` are set and none of `none`; none while a bit of its `but`
+// is set.
 typedef struct {
   supervised_state_t from, to;
   unsigned any, lacks, all, none, but;
@@ -85,7 +86,7 @@ static supervised_state_t next(supervised_state_t state, unsigned now) {
   return to;
 }
 
-// Tilted for a while, or upside down for a moment. To fall is to fly.
+// Tilted for TILTED_MS, or upside down for UPSIDE_DOWN_MS. Free fall is flight.
 static bool tumbles(supervised_t *s, const supervised_in_t *in) {
   const float *const g = in->acc_g;
   const bool falls = fabsf(g[0]) < FREE_FALL_G && fabsf(g[1]) < FREE_FALL_G && fabsf(g[2]) < FREE_FALL_G;

@@ -1,9 +1,9 @@
 // supervised.h - the firmware's supervisor: may the motors run, does it fly, has it crashed.
 //
-// A state machine, called at 25 Hz, of which the stabilizer asks every millisecond. A vehicle with brushed
-// motors arms itself. Source: bitcraze/crazyflie-firmware 2a18fc29, supervisor.c, supervisor_state_machine.c,
-// for the Crazyflie 2.1: no speed of a motor is measured, no deck reports a fault, crashes are not detected
-// by acceleration.
+// A state machine that is updated at 25 Hz and that the stabilizer asks every millisecond. A vehicle with
+// brushed motors arms itself. Source: bitcraze/crazyflie-firmware 2a18fc29, supervisor.c,
+// supervisor_state_machine.c, for the Crazyflie 2.1: motor speeds are not measured, no deck reports a fault,
+// crashes are not detected by acceleration.
 #ifndef SIM_CRAZYFLIE_SUPERVISED_H
 #define SIM_CRAZYFLIE_SUPERVISED_H
 
@@ -33,50 +33,50 @@ typedef enum { SUPERVISED_STATES(SUPERVISED_NAME) SUPERVISED_COUNT } supervised_
 
 // What a client tunes: the firmware's parameters of group `supervisor`.
 typedef struct {
-  uint16_t preflight_ms; // armed so long without flying: disarmed
-  uint16_t landed_ms;    // on the ground so long: disarmed, and armed anew
-  uint8_t tumble_check;  // 0: lies and flips are not noticed
+  uint16_t preflight_ms; // armed for this long without flying: it is disarmed
+  uint16_t landed_ms;    // landed for this long: it is disarmed, and armed anew
+  uint8_t tumble_check;  // 0: a vehicle that lies tilted or upside down is not noticed
 } supervised_param_t;
 
 extern const supervised_param_t supervised_default;
 
 typedef struct {
   uint32_t now_ms;
-  bool motors;          // one of them is driven
+  bool motors;          // at least one is driven
   float acc_g[3];       // as measured, body
-  uint32_t setpoint_ms; // when the set point came
-  uint32_t fed_ms;      // the emergency-stop watchdog, last; 0: it is not used
-  bool stop;            // a client asks for the emergency stop
+  uint32_t setpoint_ms; // time of arrival of the set point
+  uint32_t fed_ms;      // when the emergency-stop watchdog was last fed; 0: it is not used
+  bool stop;            // a client requests the emergency stop
 } supervised_in_t;
 
 typedef struct {
   supervised_state_t state;
   bool armed, crashed, tumbled;
-  uint32_t tilted_ms, thrust_ms, armed_ms, landed_ms; // since when; 0: not
+  uint32_t tilted_ms, thrust_ms, armed_ms, landed_ms; // since when, thrust: when last; 0: never
 } supervised_t;
 
-// All zero is the state after power-on.
+// All zeros are the state after power-on.
 
-// One that was switched on long before: armed on the ground, or in flight.
+// Returns the state of a vehicle that was switched on long before: armed on the ground, or in flight.
 supervised_t supervised_begun(bool flies, uint32_t now_ms);
 
-// One call at 25 Hz. Returns true if the state has changed.
+// Updates the state; to be called at 25 Hz. Returns true if the state has changed.
 bool supervised_update(supervised_t *s, const supervised_param_t *p, const supervised_in_t *in);
 
 // Flying, or levelling out.
 static inline bool supervised_flies(const supervised_t *s) {
   return s->state == SUPERVISED_FLYING || s->state == SUPERVISED_LEVEL_OUT;
 }
-// Ready, or it flies, or has landed.
+// Ready, flying, or landed.
 static inline bool supervised_can_fly(const supervised_t *s) {
   return supervised_flies(s) || s->state == SUPERVISED_READY || s->state == SUPERVISED_LANDED;
 }
-// They are allowed to: so long it stays armed.
+// The motors are allowed to run. The vehicle stays armed while they are.
 static inline bool supervised_motors_run(const supervised_t *s) {
   return supervised_can_fly(s) || s->state == SUPERVISED_ARMING;
 }
 
-// What a client asks. False: refused.
+// Requests of a client. False: refused.
 bool supervised_arm(supervised_t *s, bool arm);
 bool supervised_recover(supervised_t *s); // after a crash, standing upright
 
