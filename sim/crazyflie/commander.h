@@ -1,8 +1,8 @@
-// commander.h - stand-in: who may set points, of several.
+// commander.h - stand-in: the commander, which decides who may set points.
 #ifndef CRAZYFLIE_COMMANDER_H
 #define CRAZYFLIE_COMMANDER_H
 
-// From now on the high-level commander may again.
+// Lets the high-level commander set points again.
 void commanderRelaxPriority(void);
 
 #endif

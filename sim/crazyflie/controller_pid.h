@@ -1,4 +1,4 @@
-// controller_pid.h - stand-in: the stock controller, whoever plays it.
+// controller_pid.h - stand-in: the stock controller, which is stand_in_t.stock.
 #ifndef CRAZYFLIE_CONTROLLER_PID_H
 #define CRAZYFLIE_CONTROLLER_PID_H
 

@@ -1,4 +1,4 @@
-// eventtrigger.h - stand-in: the firmware's events. Without payload: what the app logs of one, it logs by
+// eventtrigger.h - stand-in: the firmware's events. They have no payload: the app logs what belongs to one by
 // name.
 #ifndef CRAZYFLIE_EVENTTRIGGER_H
 #define CRAZYFLIE_EVENTTRIGGER_H

@@ -1,5 +1,5 @@
-// here.h - comes before everything in src/firmware when it is compiled for the host: the app's one state is
-// that of the vehicle which this thread flies.
+// here.h - is included before everything in src/firmware when it is compiled for the host: makes the app's
+// one state that of the vehicle that this thread flies.
 #ifndef CRAZYFLIE_HERE_H
 #define CRAZYFLIE_HERE_H
 

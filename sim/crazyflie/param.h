@@ -1,6 +1,6 @@
 // param.h - stand-in: the firmware's macros fill an ELF section with the parameter groups of the app.
 //
-// Types and bits as they go over the link.
+// Types and bits as they go over the link; PARAM_PERSISTENT goes as bit 4 (link/link_params.c).
 #ifndef CRAZYFLIE_PARAM_H
 #define CRAZYFLIE_PARAM_H
 
@@ -31,16 +31,16 @@
 
 typedef struct {
   bool valid;
-  unsigned deck;                // there, or not
-  const section_param_t *param; // of the app; null: a deck's
+  unsigned deck;                // 1: it is there
+  const section_param_t *param; // null: a deck's parameter
 } paramVarId_t;
 #define PARAM_VARID_IS_VALID(id) ((id).valid)
 
-// Of the deck parameters alone.
+// Know the deck parameters only.
 paramVarId_t paramGetVarId(const char *group, const char *name);
 unsigned paramGetUint(paramVarId_t id);
 
-// Of the app's parameters alone, "group.name".
+// Knows the app's parameters only; name: "group.name".
 paramVarId_t paramGetVarIdFromComplete(const char *name);
 
 // Writes the value, tells the client and calls back, as the firmware does.

@@ -1,5 +1,5 @@
-// platform_defaults.h - stand-in: numbers of the vehicle that is flown; the constants are of legacy
-// propellers.
+// platform_defaults.h - stand-in: numbers of the vehicle that this thread flies; the constants are those of
+// legacy propellers.
 #ifndef CRAZYFLIE_PLATFORM_DEFAULTS_H
 #define CRAZYFLIE_PLATFORM_DEFAULTS_H
 

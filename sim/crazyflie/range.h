@@ -4,7 +4,7 @@
 
 typedef enum { rangeFront, rangeBack, rangeLeft, rangeRight, rangeUp, rangeDown } rangeDirection_t;
 
-// Whole millimetres: 0 before the first sample, 32767 for none that is valid.
+// Distance in whole millimetres: 0 before the first sample, 32767 if the last one is not valid.
 float rangeGet(rangeDirection_t direction);
 
 #endif

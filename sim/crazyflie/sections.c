@@ -22,7 +22,7 @@ int sections_log_groups(const section_log_group_t *const **first) {
   return between(__start_crazyflie_logs, __stop_crazyflie_logs);
 }
 
-// What follows the group's name and the dot; a null pointer: another group.
+// Returns what follows the group's name and the dot; null: it is of another group.
 static const char *within(const char *full_name, const char *group) {
   const size_t size = strlen(group);
   return strncmp(full_name, group, size) == 0 && full_name[size] == '.' ? full_name + size + 1 : NULL;

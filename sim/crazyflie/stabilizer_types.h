@@ -23,7 +23,7 @@ typedef struct {
   float roll, pitch, yaw; // deg; pitch nose up positive
 } attitude_t;
 
-// q0 is x, not w.
+// The first component is x, not w.
 typedef struct {
   float x, y, z, w;
 } quaternion_t;

@@ -1,4 +1,4 @@
-// stand_in.c - what lies behind the stand-ins.
+// stand_in.c - the functions behind the stand-ins.
 #include "stand_in.h"
 
 #include "commander.h"

@@ -1,4 +1,4 @@
-// storage.c - parameters that outlast the program: a text file, "group.name = value" a line.
+// storage.c - parameters that outlast the program: a text file with lines "group.name = value".
 #include "storage.h"
 
 #include "base/number.h"
@@ -19,7 +19,7 @@ static done_t take(storage_t *s, firmware_t *f, int line, char *text, why_t *why
     return error_set(why, "%s:%d: allowed is `group.name = value`", s->path, line);
   const int i = firmware_param_find(f, name);
   if (i < 0 || !(firmware_param_row(f, i).type & PARAM_PERSISTENT)) {
-    // Stored by a firmware that had it.
+    // It was stored by a firmware that had it.
     stand_in_print("DESK: %s cannot be stored, and is left out\n", name);
     return DONE;
   }
@@ -35,7 +35,7 @@ static done_t read_all(storage_t *s, firmware_t *f, FILE *file, why_t *why) {
   return DONE;
 }
 
-// A client is not to find out when it stores.
+// Checked at the start, not when a client stores.
 static done_t can_write(const char *path, why_t *why) {
   whole_files_t files = {0};
   FILE *file;

@@ -1,4 +1,4 @@
-// supervisor.h - stand-in: who says whether the vehicle flies and whether its motors may run.
+// supervisor.h - stand-in: the supervisor says whether the vehicle flies and whether its motors may run.
 #ifndef CRAZYFLIE_SUPERVISOR_H
 #define CRAZYFLIE_SUPERVISOR_H
 

@@ -1,4 +1,4 @@
-// task.h - stand-in.
+// task.h - stand-in: ticks and delays.
 #ifndef CRAZYFLIE_TASK_H
 #define CRAZYFLIE_TASK_H
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <ucontext.h>
 
-#define STACK_BYTES 262144 // sanitizers want much more than the vehicle's 350 words
+#define STACK_BYTES 262144 // sanitizers need much more than the vehicle's 350 words
 
 struct task_switch {
   ucontext_t here, task;

@@ -1,5 +1,5 @@
-// task_switch.h - one task of the firmware beside the stabilizer: a function that never returns and rests by
-// vTaskDelay, run for as long as it wants and no longer, in the thread of its caller.
+// task_switch.h - one task of the firmware beside the stabilizer, as a coroutine: a function that never
+// returns and rests in vTaskDelay. It runs in the thread of its caller, from one rest to the next.
 #ifndef SIM_CRAZYFLIE_TASK_SWITCH_H
 #define SIM_CRAZYFLIE_TASK_SWITCH_H
 
@@ -8,14 +8,14 @@
 
 typedef struct task_switch task_switch_t;
 
-// A null pointer: no memory.
+// Null: no memory.
 task_switch_t *task_open(void (*task)(void));
 void task_close(task_switch_t *t);
 
-// Runs it, if it is due, until it rests.
+// Runs the task, if it is due, until it rests.
 void task_run(task_switch_t *t, uint32_t now_ms);
 
-// In the task: it rests for so long.
+// Called from within the task: rests for ms.
 void task_rest(task_switch_t *t, uint32_t ms);
 
 bool task_runs(const task_switch_t *t);

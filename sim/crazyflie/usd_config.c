@@ -14,7 +14,7 @@ typedef struct {
   FILE *file;
   const char *path;
   int line;
-  char text[USD_CONFIG_LINE]; // without white space and comment
+  char text[USD_CONFIG_LINE]; // without white space and comments
 } reader_t;
 
 static done_t refuse(const reader_t *r, why_t *why, const char *what) {
@@ -22,8 +22,8 @@ static done_t refuse(const reader_t *r, why_t *why, const char *what) {
   return error_set(why, "%s:%d: `%s`: %s", r->path, r->line, number_shown(r->text, shown), what);
 }
 
-// The next line; a line of a comment alone is none. *more: false at the end, where a line without its newline
-// is lost, as on the deck.
+// Reads the next line; one that is only a comment is skipped. *more: false at the end. A last line without
+// its newline is refused, since the deck loses it.
 static done_t next(reader_t *r, bool *more, why_t *why) {
   bool comment = false, pure = false;
   size_t n = 0;

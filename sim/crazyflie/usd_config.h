@@ -1,10 +1,10 @@
 // usd_config.h - the file config.txt on the card of the Crazyflie's uSD deck, read as the deck reads it.
 //
-//   version (1), buffer in bytes, file name, 1 to start with the power; then for each event `on:NAME` and its
-//   variables, one a line. Behind on:fixedFrequency: the frequency in Hz, and 0, 1 (in the stabilizer's task)
-//   or 2 (in one of its own). White space is nothing, and so is # with all behind it.
+//   One item a line: version (1), buffer in bytes, file name, 1 to start at power-on; then for each event
+//   `on:NAME` and its variables. After on:fixedFrequency come the frequency in Hz and the mode: 0, 1 (in the
+//   stabilizer's task) or 2 (in a task of its own). White space is ignored, and so is # with all after it.
 //
-// The deck skips what it does not know and what it has no room for; here that is refused.
+// The deck skips what it does not know or has no room for; here it is refused.
 #ifndef CRAZYFLIE_USD_CONFIG_H
 #define CRAZYFLIE_USD_CONFIG_H
 
@@ -13,12 +13,12 @@
 
 #define USD_CONFIG_EVENTS    20
 #define USD_CONFIG_VARIABLES 20 // of an event
-#define USD_CONFIG_LINE      32 // the deck's buffer of a line, its end included
+#define USD_CONFIG_LINE      32 // the deck's buffer of a line, with the final 0
 #define USD_CONFIG_FILE      10 // letters of the file name before its digits
 
 typedef struct {
   char name[USD_CONFIG_LINE];
-  int line; // of the file
+  int line; // its line in the file
   int n;
   char variable[USD_CONFIG_VARIABLES][USD_CONFIG_LINE];
   int at[USD_CONFIG_VARIABLES]; // lines of the file
@@ -33,7 +33,7 @@ typedef struct {
   usd_config_event_t event[USD_CONFIG_EVENTS];
 } usd_config_t;
 
-// BAD_INPUT, with file and line: cannot be read, or is no such file, or more than the deck takes.
+// BAD_INPUT, with file and line: it cannot be read, is no such file, or holds more than the deck takes.
 MUST_CHECK done_t usd_config_read(const char *path, usd_config_t *config, why_t *why);
 
 // BAD_INPUT, with file and line: the app triggers no such event, or has no such log.

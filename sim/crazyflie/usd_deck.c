@@ -9,11 +9,11 @@
 #define MAGIC    0xBC
 #define VERSION  2
 #define FIXED_ID 0xFFFF
-#define COPY_US  20 // of a row, about: 100 bytes, one by one
+#define COPY_US  20 // about what a row of 100 bytes takes, copied one by one
 
 static void put(usd_deck_t *d, const void *bytes, size_t n) {
   d->crc = crc32(d->crc, bytes, (uInt)n);
-  (void)fwrite(bytes, 1, n, d->to); // what could not be written is found when the file is closed
+  (void)fwrite(bytes, 1, n, d->to); // an error shows when the file is closed
 }
 
 static void put_number(usd_deck_t *d, uint64_t value, size_t n) {
