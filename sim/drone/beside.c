@@ -3,10 +3,11 @@
 
 #include <math.h>
 
-// From y_m along a beam that rises by slope_y a metre; infinite: it never meets it.
+// Length of a beam from y_m to the wall, slope_y: its change of y per metre. Infinite: it never meets the
+// wall.
 static double to_wall_m(double y_m, double slope_y, double wall_y_m) {
   const double ahead_m = (wall_y_m - y_m) / slope_y;
-  return ahead_m >= 0.0 ? ahead_m : HUGE_VAL; // not a number fails this, too
+  return ahead_m >= 0.0 ? ahead_m : HUGE_VAL; // false for NaN, too
 }
 
 void beside_look(d3_t pos_w_m, dq_t q_wb, double wall_y_m, int hand, uint16_t mm[BESIDE_N]) {

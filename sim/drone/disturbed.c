@@ -1,4 +1,4 @@
-// disturbed.c - what a person at a client or at the page does to a vehicle, and what its scene has happen.
+// disturbed.c - what disturbs a vehicle: a person at a client or at the page, and the events of its scene.
 #include "drone/disturbed.h"
 
 #include "base/constants.h"
@@ -6,16 +6,17 @@
 #include <string.h>
 
 #define DAMAGE    "motor_damage"
-#define LOWER_MPS 0.3 // a ceiling that comes down upon the vehicle: it is pushed, not cut
-#define CLEAR_M   0.1 // above it the ceiling is moved at once
+#define LOWER_MPS 0.3 // of a ceiling that comes down onto the vehicle: it pushes, and does not cut
+#define CLEAR_M   0.1 // farther above the vehicle the ceiling is moved at once
 
-// The scene's own wind and payload stay; what is asked for comes on top.
+// Adds the wind and payload of the parameters to the scene's own.
 static void push(flight_loop_t *loop, const desk_params_t *p) {
   body_push(loop_body(loop), d3(1e-3 * (double)p->windX, 1e-3 * (double)p->windY,
                                 1e-3 * ((double)p->windZ - G_MPS2 * (double)p->payload)));
 }
 
-// At once as far as CLEAR_M above the vehicle, whose highest point is less than that above its middle.
+// Moves the ceiling at once down to CLEAR_M above the vehicle's highest point, which is less than CLEAR_M
+// above its centre; from there on at LOWER_MPS.
 static void move_ceiling(flight_loop_t *loop, double asked_m) {
   model_t *const m = loop_model(loop);
   const double wanted_m = asked_m < DISTURBED_NO_CEILING_M ? asked_m : HUGE_VAL;
@@ -26,7 +27,7 @@ static void move_ceiling(flight_loop_t *loop, double asked_m) {
   body_surround(&loop_body(loop)->touch, m);
 }
 
-// The scene's own damage stays until another is asked for.
+// Applies the damage of the parameters; while they have none, the scene's own.
 static void weaken(const disturbed_t *d, flight_loop_t *loop, const desk_params_t *p) {
   model_t *const m = loop_model(loop);
   for (int i = 0; i < m->n_fx; i++) {

@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COVERED_M 0.04 // what the sensor says of a hand
-#define ROWS      100  // samples kept before they are written: a second's
+#define COVERED_M 0.04 // what the covered upward sensor reads
+#define ROWS      100  // samples kept before they are written: one second
 #define FOREVER_S 1e7
 #define TICK_MS   2
-#define BESIDE_MS 100 // as the firmware asks its sensors
+#define BESIDE_MS 100 // period of the firmware's sideways sensors
 
 uint32_t drone_now_ms(const drone_t *d) {
   return d->now_ms;
@@ -30,7 +30,7 @@ static void *logs_of(void *context) {
   return &((drone_t *)context)->logs;
 }
 
-// What is out of its range is put back, and the client is told.
+// Puts a written value back if it is out of its range, and tells the client.
 static void written(void *context, int i) {
   drone_t *const d = context;
   why_t why;
@@ -45,7 +45,7 @@ static void written(void *context, int i) {
 done_t drone_set(drone_t *d, const char *name, double value, why_t *why) {
   const int i = desk_param_find(name);
   TRY(desk_param_check(name, value, why));
-  // Over the link, so that it stands in the commands; who asked is not the client, which is told of it.
+  // Written by a packet, so that it stands in the commands. The client did not ask for it, and is told.
   const int number = drone_first_param(d) + i, type = desk_param_rows[i].type;
   uint8_t packet[7] = {0x2e, (uint8_t)number, (uint8_t)(number >> 8)};
   values_put(type, packet + 3, value);
@@ -90,7 +90,7 @@ static done_t keep(drone_t *d, why_t *why) {
   if (!d->log) return DONE;
   const int width = sections_logs();
   const model_t *const m = loop_model(d->loop);
-  d->seen.t_s = 1e-3 * (double)(d->now_ms - TICK_MS); // through restarts
+  d->seen.t_s = 1e-3 * (double)(d->now_ms - TICK_MS); // restarts included
   d->seen.setpoint_m = (double)d->firmware.vehicle.setpoint.position.z + body_rest_z_m(m) + body_rotor_z_m(m);
   TRY(record_add(&d->record, &d->seen, why));
   crazyflie_logs(&d->firmware.vehicle, d->record.app + (size_t)(d->record.n - 1) * (size_t)width);
@@ -111,7 +111,7 @@ static void look(drone_t *d) {
   }
 }
 
-// rangeFront .. rangeRight
+// Fills rangeFront .. rangeRight.
 static void look_beside(drone_t *d) {
   if (d->on_ms % BESIDE_MS != 0) return;
   const double *const y = loop_body(d->loop)->y;
@@ -119,7 +119,7 @@ static void look_beside(drone_t *d) {
               d->firmware.vehicle.around.range_mm);
 }
 
-// A rise of kalman.resetEstimation: back to where the estimate starts, as the firmware does.
+// When kalman.resetEstimation rises to 1, the estimate starts anew at kalman.initial*, as in the firmware.
 static void reset_estimate(drone_t *d) {
   const stock_params_t *const p = &d->firmware.params;
   const bool asked = p->kalman_resetEstimation == 1, rises = asked && !d->reset_asked;
@@ -130,7 +130,7 @@ static void reset_estimate(drone_t *d) {
   e->s[0] = (double)p->kalman_initialX;
   e->s[1] = (double)p->kalman_initialY;
   e->s[2] = (double)p->kalman_initialZ;
-  e->updated = true; // is handed out
+  e->updated = true; // so that it is handed out
 }
 
 static void follow(drone_t *d) {
@@ -167,12 +167,12 @@ static done_t tick(drone_t *d, why_t *why) {
   return DONE;
 }
 
-// The app waits in a parameter's callback: the others go on.
+// The app waits in a parameter's callback: all else goes on meanwhile.
 static void wait(void *context, uint32_t ms) {
   drone_t *const d = context;
   why_t why;
   for (uint32_t i = 0; i < ms; i += TICK_MS)
-    if (tick(d, &why) != DONE) return; // the log that cannot be written says so at the next tick
+    if (tick(d, &why) != DONE) return; // a log that cannot be written fails again at the next tick
 }
 
 void drone_take(drone_t *d, const uint8_t *bytes, int size) {
@@ -221,7 +221,7 @@ static void switch_off(drone_t *d) {
   firmware_close(&d->firmware);
 }
 
-// What a person does to it begins anew as well. The link stays up, as no vehicle's does.
+// Sets the desk parameters back as well. The link stays up, which a real vehicle's would not.
 static void begin(drone_t *d) {
   for (int i = 0; i < desk_param_count; i++)
     values_put(desk_param_rows[i].type, (char *)&d->params + desk_param_rows[i].offset, d->initial[i]);
@@ -298,7 +298,7 @@ done_t drone_open(drone_t *d, const scene_t *scene, const char *storage, FILE *l
   d->commands = commands;
   const done_t status = open(d, why);
   if (status == DONE) return DONE;
-  d->log = d->commands = NULL; // nothing has flown
+  d->log = d->commands = NULL; // nothing to write: nothing has flown
   why_t lost;
   (void)!drone_close(d, &lost);
   return status;

@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#define LINE 256 // of 64 bytes in hex, and the time
+#define LINE 256 // for the time and 64 bytes in hex
 
-// "MS HEX", or "MS"
+// The bytes of "MS HEX", 0 of "MS", else -1.
 static int read_packet(const char *text, uint32_t *ms, uint8_t bytes[64]) {
   int at, n = 0;
   unsigned byte;
@@ -19,7 +19,7 @@ done_t drone_replay(drone_t *d, FILE *commands, const char *path, double more_s,
   char text[LINE];
   uint32_t ms = 0, last_ms = 0;
   uint8_t bytes[64];
-  d->storage.path = NULL; // what is stored again is stored nowhere
+  d->storage.path = NULL; // nothing is stored in the file again
   for (int line = 1; fgets(text, sizeof text, commands); line++) {
     if (text[0] == '#') {
       while (!strchr(text, '\n') && fgets(text, sizeof text, commands)) continue;

@@ -1,5 +1,5 @@
-// rows.h - what a person at a client, or at the page, can do to a vehicle that flies at the desk: the
-// parameters of the group `desk`; and what no real vehicle could tell: its logs.
+// rows.h - the group `desk`: parameters by which a person at a client or at the page disturbs a vehicle that
+// flies at the desk, and logs of what no real vehicle could tell.
 #ifndef SIM_DRONE_ROWS_H
 #define SIM_DRONE_ROWS_H
 
@@ -7,7 +7,7 @@
 #include "crazyflie/stock_table.h"
 #include <stdbool.h>
 
-// X(name, C type, type, at the start, least, most, is it a switch, unit, what it does)
+// X(name, C type, type, initial value, minimum, maximum, whether it is a switch, unit, what it does)
 #define DESK_PARAMS(X)                                                                                       \
   X(ceiling, float, PARAM_FLOAT, 1.5, 0.15, 10, false, "m", "height of the ceiling; 10: none")               \
   X(cover, uint8_t, PARAM_UINT8, 0, 0, 1, true, "", "cover the upward range sensor")                         \
@@ -37,7 +37,8 @@
 typedef struct {
   DESK_PARAMS(DESK_FIELD)
 } desk_params_t;
-// As it is: m, the propellers' distance to the ceiling, rotor 1's thrust ratio; s behind the clock.
+// The truth: position, m; gap from the propellers to the ceiling, m; thrust ratio of rotor 1; contacts with
+// the ceiling; and how far it is behind the clock, s.
 typedef struct {
   DESK_LOGS(DESK_FIELD)
 } desk_logs_t;
@@ -55,10 +56,10 @@ extern const desk_range_t desk_ranges[];
 
 extern const int desk_param_count, desk_log_count;
 
-// Its number; -1: none of that name.
+// Returns its number; -1: none of that name.
 int desk_param_find(const char *name);
 
-// BAD_INPUT: no such parameter, or a value that it does not take.
+// BAD_INPUT: there is no such parameter, or it does not take this value.
 MUST_CHECK done_t desk_param_check(const char *name, double value, why_t *why);
 
 #endif

@@ -42,7 +42,7 @@ static bool is_path(const char *name) {
   return strchr(name, '/') || strstr(name, ".toml");
 }
 
-// A path counts from the scene's folder.
+// A path is relative to the scene's folder.
 static done_t take_vehicle(toml_t t, const char *scene_path, model_t *model, why_t *why) {
   char name[TEXT_MAX], path[2 * TEXT_MAX + 1];
   TRY(toml_string(t, "vehicle", name, sizeof name, why));

@@ -2,16 +2,16 @@
 //
 // A TOML file, every key of which may be left out:
 //
-//   vehicle = "cf21_legacy"     one that comes with the program, or a file's path, from the scene's folder
+//   vehicle = "cf21_legacy"     one that comes with the program, or a file's path from the scene's folder
 //   noise = "real"              as fly takes it
 //   seed = 1
 //   ceiling_m = 1.5             10: none
 //   floor_rise_x = 0.0, floor_rise_y = 0.0   tangents
-//   wall_y_m = 1.0              a wall in the plane of this y that can be touched and is seen
+//   wall_y_m = 1.0              a wall in the plane of this y that can be touched and seen
 //   battery = 1.0               charge at the start, 0 to 1
-//   [[effect]]                  as many as are wanted; what begins later says so itself (mass: start)
+//   [[effect]]                  any number of them; one that begins later says so itself (mass: start)
 //   is = "mass:add=0.003,start=20"
-//   [[event]]                   parameters of the group desk that change by themselves, in the order of time:
+//   [[event]]                   a parameter of the group desk that changes by itself; in the order of time:
 //   at_s = 20.0                 here a fan that begins to blow, mN
 //   set = "windX=30"
 //
@@ -40,14 +40,14 @@ typedef struct {
 
 MUST_CHECK done_t scene_default(scene_t *scene, why_t *why);
 
-// Over what is there. BAD_INPUT: the file is missing or not TOML, a key is unknown or out of range.
+// Reads a file over what is there. BAD_INPUT: it is missing or not TOML, a key is unknown or out of range.
 MUST_CHECK done_t scene_read(const char *path, scene_t *scene, why_t *why);
 
-// What a command line asks for, over it: request_t's vehicle, effects and noise.
+// Applies what a command line asks for over it: vehicle, effects and noise of request_t.
 MUST_CHECK done_t scene_apply(scene_t *scene, const request_t *request, why_t *why);
 
-// All of it: the default, the file at path (null: none), and what the command line asks for; whose seed is
-// the file's unless it says one.
+// All three: the default, the file at path (null: none), and the command line's request, whose seed becomes
+// the file's unless seed_said.
 MUST_CHECK done_t scene_take(scene_t *scene, const char *path, request_t *request, bool seed_said,
                              why_t *why);
 
