@@ -9,17 +9,17 @@
 
 #define ADDRESS_TEXT INET_ADDRSTRLEN
 
-// BAD_INPUT: none of the kind, as 127.0.0.1.
+// BAD_INPUT: not an IPv4 address such as 127.0.0.1.
 MUST_CHECK done_t address_parse(const char *text, struct in_addr *address, why_t *why);
 
-// 0.0.0.0: every address that this machine has. It is one to listen on, and none to connect to.
+// True for 0.0.0.0, every address that this machine has: one listens on it, and cannot connect to it.
 bool address_is_every(struct in_addr address);
 
-// What a program on this machine connects to.
+// Returns the address that a program on this machine connects to, as text.
 const char *address_near(struct in_addr address, char text[ADDRESS_TEXT]);
 
-// BAD_INPUT, for bind(2)'s errno: who is there already, or what is allowed in place of this. option: that the
-// port came by.
+// Returns BAD_INPUT for an errno of bind(2), and says who is there already, or what is allowed in its place.
+// option: the option that gave the port.
 done_t address_refuse(struct in_addr address, int port, const char *option, int error, why_t *why);
 
 #endif

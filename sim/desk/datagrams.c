@@ -9,7 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define BURST 64 // datagrams taken at once, so that a flood does not stop the flight
+#define BURST 64 // datagrams taken in one call, so that a flood does not stop the flight
 
 static bool bound(datagrams_t *r, struct in_addr address, int port) {
   struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((uint16_t)port), .sin_addr = address};
@@ -55,7 +55,7 @@ static void put(datagrams_t *r, air_t *air, const uint8_t *bytes, int size, uint
   memcpy(h->byte, bytes, (size_t)size);
 }
 
-// The oldest that is due, out of its place; those behind it keep their order.
+// Takes out the packet that has been due for longest; those behind it keep their order.
 static bool take(air_t *air, uint32_t now_ms, held_t *held) {
   int first = -1;
   for (int i = 0; i < air->n; i++) {
@@ -75,12 +75,12 @@ static bool same(const struct sockaddr_in *a, const struct sockaddr_in *b) {
   return a->sin_port == b->sin_port && a->sin_addr.s_addr == b->sin_addr.s_addr;
 }
 
-// The first packet of a session.
+// True for the first packet of a session.
 static bool begins(const uint8_t *bytes, ssize_t n) {
   return n == 2 && bytes[0] == 0xfd && bytes[1] == 0;
 }
 
-// What was under way from and to the one before is nothing to this one.
+// Packets under way from and to the client before are lost: they are not this client's.
 static void change(datagrams_t *r, const struct sockaddr_in *client) {
   r->lost += (uint32_t)(r->up.n + r->down.n);
   r->up.n = r->down.n = 0;
@@ -111,7 +111,7 @@ void datagrams_listen(datagrams_t *r, double wall_s, uint32_t now_ms) {
   for (int i = 0; i < BURST; i++) {
     socklen_t length = sizeof from;
     const ssize_t n = recvfrom(r->socket, bytes, sizeof bytes, 0, (struct sockaddr *)&from, &length);
-    if (n < 0 && errno == ECONNREFUSED) continue; // of something sent before to a client that has gone
+    if (n < 0 && errno == ECONNREFUSED) continue; // caused by something sent to a client that has gone
     if (n < 0) return;
     hear(r, &from, bytes, n, wall_s, now_ms);
   }

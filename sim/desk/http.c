@@ -23,21 +23,21 @@
 #include <unistd.h>
 
 #define CONNECTIONS 32u   // a browser holds six
-#define SILENT_S    30u   // then a connection is ended
+#define SILENT_S    30u   // s; after that a connection is ended
 #define BODY_MAX    1024u // bytes
 #define HOST_MAX    32    // "255.255.255.255:65535", "localhost:65535"
-#define WORD_MAX    40    // a name or a number of /set, with its end
-#define ROUNDS      64    // of the library in one http_run: so many that all that has come is answered
+#define WORD_MAX    40    // a name or a number of /set, with its final 0
+#define ROUNDS      64    // of the library in one http_run: enough to answer all that has come
 
 struct http {
   struct MHD_Daemon *daemon;
   const http_answers_t *answers;
   int port;
   int epoll;      // one descriptor that stands for all that the library waits for
-  fd_set watched; // those that are in it, or were until they were closed
+  fd_set watched; // descriptors that are in it, or were until they were closed
   int last;       // the largest of them
-  bool more;      // the library was left with something to do
-  time_t turned;  // when it was turned last
+  bool more;      // the library still has something to do
+  time_t turned;  // when the library last ran
 };
 
 // A field of /set as it comes, in pieces.
@@ -52,9 +52,9 @@ static const char *const word_key[WORDS] = {"drone", "name", "value"};
 #define SET_TAKES "allowed: drone=NUMBER&name=NAME&value=NUMBER, each once"
 
 typedef struct {
-  struct MHD_PostProcessor *reader; // null where no form is expected, or it is none
+  struct MHD_PostProcessor *reader; // null where no form is expected, or the body is none
   word_t word[WORDS];
-  bool odd; // something in it that is not taken
+  bool odd; // it has something that is not taken
 } request_t;
 
 typedef enum MHD_Result result_t;
@@ -62,7 +62,7 @@ typedef struct MHD_Connection connection_t;
 
 // --- answers ----------------------------------------------------------------------------------------------
 
-// The response is used up; null: the connection ends.
+// Queues the response and releases it. A null response ends the connection.
 static result_t respond(connection_t *c, unsigned status, const char *type, struct MHD_Response *response) {
   if (!response) return MHD_NO;
   MHD_add_response_header(response, MHD_HTTP_HEADER_CACHE_CONTROL, "no-store");
@@ -83,7 +83,7 @@ static result_t say(connection_t *c, unsigned status, const char *line) {
 static result_t get_page(const http_t *http, connection_t *c, request_t *request) {
   (void)http;
   (void)request;
-  // The library only reads it: its argument is not const for those who hand over memory.
+  // The library only reads the page. Its argument is not const for callers that hand their memory over.
   union {
     const unsigned char *here;
     void *there;
@@ -148,14 +148,14 @@ static const char *header(connection_t *c, const char *name) {
   return MHD_lookup_connection_value(c, MHD_HEADER_KIND, name);
 }
 
-// A name that somebody let resolve to this machine is not its address.
+// True if host is name:port. A foreign name that was made to resolve to this machine is refused by this.
 static bool host_is(const char *host, const char *name, int port) {
   char full[HOST_MAX];
   snprintf(full, sizeof full, "%s:%d", name, port);
   return strcasecmp(host, full) == 0 || (port == 80 && strcasecmp(host, name) == 0);
 }
 
-// address: what the connection came to.
+// True if the Host header names this server. Fills address: the one that the connection came to.
 static bool asks_us(connection_t *c, int port, char address[ADDRESS_TEXT]) {
   const char *const host = header(c, MHD_HTTP_HEADER_HOST);
   const union MHD_ConnectionInfo *const info = MHD_get_connection_info(c, MHD_CONNECTION_INFO_CONNECTION_FD);
@@ -167,7 +167,7 @@ static bool asks_us(connection_t *c, int port, char address[ADDRESS_TEXT]) {
   return host && (host_is(host, address, port) || host_is(host, "localhost", port));
 }
 
-// The host was looked at already.
+// True if the POST has no Origin, or that of the Host header, which asks_us() has checked.
 static bool from_our_page(connection_t *c) {
   static const char scheme[] = "http://";
   const char *const origin = header(c, MHD_HTTP_HEADER_ORIGIN);
@@ -216,7 +216,7 @@ static result_t take_word(void *context, enum MHD_ValueKind kind, const char *ke
   return MHD_YES;
 }
 
-// The head has come: refuses, or makes what the body goes into.
+// The head of a request has come: refuses it, or makes the request_t that takes its body.
 static result_t begin(const http_t *http, connection_t *c, const char *path, const char *method,
                       void **request) {
   const route_t *const at = route_of(path);
@@ -250,7 +250,7 @@ static result_t heard(void *context, connection_t *c, const char *path, const ch
   request_t *const r = *request;
   if (!r) return begin(http, c, path, method, request);
   if (*size == 0) {
-    // Only now the last word is whole.
+    // Only this completes the last field.
     if (r->reader && MHD_destroy_post_processor(r->reader) != MHD_YES) r->odd = true;
     r->reader = NULL;
     return route_of(path)->answer(http, c, r);
@@ -272,12 +272,12 @@ static void forget(void *context, connection_t *c, void **request, enum MHD_Requ
 
 // --- the server -------------------------------------------------------------------------------------------
 
-// A socket that listens; *port gets the one that it is.
+// Opens a socket that listens; *port becomes its actual port.
 static done_t listens(int *fd, struct in_addr address, int *port, why_t *why) {
   struct sockaddr_in at = {.sin_family = AF_INET, .sin_port = htons((uint16_t)*port), .sin_addr = address};
   *fd = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (*fd < 0) return error_failed(why, "no socket: %s", strerror(errno));
-  // What a server before this one left waiting is no other server.
+  // Connections that an earlier server left waiting do not count as another server.
   const int on = 1;
   socklen_t size = sizeof at;
   if (setsockopt(*fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
@@ -291,8 +291,8 @@ static done_t listens(int *fd, struct in_addr address, int *port, why_t *why) {
   return address_refuse(address, *port, "--page (0: none)", error, why);
 }
 
-// The library's own epoll would do, but that it sleeps over the end of a connection that comes with its last
-// bytes.
+// Puts the library's descriptors into `epoll`. The library's own epoll would do, but it misses the end of a
+// connection that comes with its last bytes.
 static void watch(http_t *http) {
   fd_set in, out, except;
   int last = -1;
@@ -304,7 +304,7 @@ static void watch(http_t *http) {
     struct epoll_event event = {.events = (FD_ISSET(fd, &in) ? (uint32_t)EPOLLIN : 0u) |
                                           (FD_ISSET(fd, &out) ? (uint32_t)EPOLLOUT : 0u)};
     if (event.events) {
-      // One that was closed is not in it any more, though another may have its number.
+      // A descriptor that was closed is no longer in it, though a new one may have its number.
       if (epoll_ctl(http->epoll, EPOLL_CTL_MOD, fd, &event) != 0)
         epoll_ctl(http->epoll, EPOLL_CTL_ADD, fd, &event);
       FD_SET(fd, &http->watched);
@@ -352,14 +352,14 @@ int http_fd(const http_t *http) {
 }
 
 void http_run(http_t *http) {
-  // A loop that flies in real time calls a thousand times a second: mostly there is nothing.
+  // A loop that flies in real time calls a thousand times a second: mostly there is nothing to do.
   struct epoll_event any;
   const time_t now = time(NULL);
   if (!http->more && now == http->turned && epoll_wait(http->epoll, &any, 1, 0) == 0) return;
   http->turned = now;
   http->more = true;
   for (int i = 0; i < ROUNDS && http->more; i++) {
-    // What the library has read already makes no descriptor ready: it says so with a wait of 0.
+    // Bytes that the library has already read make no descriptor ready: it tells of them by a timeout of 0.
     MHD_UNSIGNED_LONG_LONG wait_ms = 1;
     http->more = MHD_run(http->daemon) == MHD_YES && MHD_get_timeout(http->daemon, &wait_ms) == MHD_YES &&
                  wait_ms == 0;

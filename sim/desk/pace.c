@@ -1,4 +1,4 @@
-// pace.c - how far the flight should be, by the clock on the wall.
+// pace.c - how far the flight should be, by the wall clock.
 #define _POSIX_C_SOURCE 200809L // clock_gettime
 #include "desk/pace.h"
 

@@ -32,7 +32,7 @@ static done_t close_file(FILE **file, const char *path, why_t *why) {
   return closed && !spoilt ? DONE : not_whole(path, why);
 }
 
-// As it is flown anew with.
+// Copies what was stored before, to fly it anew with.
 static done_t copy_storage(const char *from, const char *path, bool *copied, why_t *why) {
   FILE *const file = from ? fopen(from, "r") : NULL, *copy = NULL;
   *copied = file != NULL;
@@ -44,7 +44,7 @@ static done_t copy_storage(const char *from, const char *path, bool *copied, why
   return close_file(&copy, path, why);
 }
 
-// How fly flies it, at the head of the commands.
+// Heads the commands by how fly flies them.
 static void say_again(const place_t *p, const place_order_t *o, uint64_t seed, const char *storage) {
   char text[32];
   made_t again = made_by("out/fly", 0, NULL);
@@ -85,7 +85,7 @@ done_t place_flush(place_t *p, why_t *why) {
 
 static done_t tick(place_t *p, why_t *why) {
   const done_t status = drone_tick(&p->drone, why);
-  if (status != DONE) TRY(place_flush(p, why)); // names the file, if it is one
+  if (status != DONE) TRY(place_flush(p, why)); // names the file, if one failed
   return status;
 }
 
@@ -105,7 +105,7 @@ done_t place_open(place_t *p, const place_order_t *o, int number, why_t *why) {
   memset(p, 0, sizeof *p);
   p->radio.socket = -1;
   const done_t status = open_all(p, o, number, why);
-  why_t later; // it began with the first
+  why_t later; // the first error is the cause
   if (status != DONE) (void)!place_close(p, &later);
   return status;
 }
@@ -114,7 +114,7 @@ done_t place_close(place_t *p, why_t *why) {
   why_t later;
   const done_t flown = p->drone.loop ? drone_close(&p->drone, why) : DONE;
   datagrams_close(&p->radio);
-  // They name the file.
+  // Their errors name the file: they come first.
   const done_t log = close_file(&p->log, p->log_path, why);
   const done_t commands = close_file(&p->commands, p->commands_path, log == DONE ? why : &later);
   return log != DONE ? log : commands != DONE ? commands : flown;

@@ -9,10 +9,10 @@
 typedef struct {
   const char *uri;
   const datagrams_t *radio;
-  double beside_m; // where its place is on the page, along y
+  double beside_m; // added to y: its place on the page
 } seen_as_t;
 
-// A null pointer: out of memory. The caller deletes it.
+// Returns the vehicle's part of /state, for the caller to delete. Null: out of memory.
 cJSON *state_of(const drone_t *d, const seen_as_t *as);
 
 #endif
