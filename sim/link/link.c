@@ -48,8 +48,9 @@ bool link_give(link_t *l, packet_t *packet) {
   return true;
 }
 
-// A session of the client library ends with a set point of zeros. Over a radio it hardly ever arrives, here
-// always, and would keep the planner from flying in the next session: on the ground it is let go.
+// A session of the client library ends with a set point of zeros. Over a radio it hardly ever arrives; here
+// it always does, and its priority would keep the planner from flying in the next session. On the ground the
+// priority is dropped.
 void link_reset(link_t *l) {
   link_logs_reset(l);
   if (!supervised_flies(&l->firmware->vehicle.supervised)) commanded_let_go(&l->firmware->commanded);
@@ -97,10 +98,10 @@ static bool arm_or_recover(link_t *l, int port, int channel, uint8_t reply, cons
   return true;
 }
 
-// The old way to arm goes on here.
+// Older clients arm here.
 static bool platform(link_t *l, const request_packet_t *r) {
   if (r->channel == 1) return r->size > 0 && version(l, r);
-  if (r->channel == 2) return true; // an app's own channel, and the app has none
+  if (r->channel == 2) return true; // for packets of an app, and this app takes none
   if (r->channel != 0 || r->size < 1) return false;
   if (r->data[0] == ARM || r->data[0] == RECOVER) return arm_or_recover(l, PLATFORM, 0, r->data[0], r);
   link_answer(l, PLATFORM, 0, r->data, r->data[0] == 3 ? 0 : r->size);
@@ -117,7 +118,7 @@ static bool stop_or_feed(firmware_t *f, uint8_t what) {
   return what == EMERGENCY_STOP || what == FEED;
 }
 
-// Where older clients stop it. Positions are taken, and not used.
+// Localization, where older clients send the emergency stop. Positions are taken, and not used.
 static bool place(link_t *l, const request_packet_t *r) {
   if (r->channel == 1 && r->size > 0) (void)stop_or_feed(l->firmware, r->data[0]);
   return true;
@@ -154,7 +155,7 @@ static bool set_points(link_t *l, const request_packet_t *r) {
   return true;
 }
 
-// Three bytes of the command stand before its result.
+// The answer has the command's first three bytes, then its result.
 static bool high_level(link_t *l, const request_packet_t *r) {
   firmware_t *const f = l->firmware;
   if (r->size < 1) return false;

@@ -1,5 +1,5 @@
-// link_list.c - the lists of parameters and of logs: how many, the sum by which a client knows it, and each
-// item.
+// link_list.c - the lists of parameters and of logs: their length, the checksum by which a client knows a
+// list, and each item.
 #include "link/link.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ static uint32_t add(uint32_t crc, const void *bytes, size_t n) {
   return (uint32_t)crc32(crc, bytes, (unsigned)n);
 }
 
-// It changes when a name or a type does.
+// Returns a checksum that changes when a name or a type does.
 uint32_t link_list_crc(const link_t *l, const link_list_t *list) {
   uint32_t crc = add(0, NULL, 0);
   for (int i = 0; i < list->n; i++) {

@@ -9,7 +9,7 @@ enum { DELETE = 2, RUN, HALT, RESET, CREATE, APPEND, RUN_MS };
 enum { NO_BLOCK = 2, TOO_BIG = 7, BAD_COMMAND = 8, NO_MEMORY = 12, EXISTS = 17 };
 
 #define FP16 8
-#define OP   3 // bytes of a variable in a request: its type, its number
+#define OP   3 // bytes of a variable in a request: type, then number
 
 static const int bytes_of[] = {0, 1, 2, 4, 1, 2, 4, 4, 2}; // log.h
 
@@ -106,7 +106,7 @@ void link_logs_restart(link_t *l) {
     l->block[i].due_ms = firmware_now_ms(l->firmware) + l->block[i].period_ms;
 }
 
-// Bytes that a command has at least.
+// The least number of bytes of a command.
 static int least(uint8_t what) {
   return what == RESET ? 1 : what == RUN ? 3 : what == RUN_MS ? 4 : 2;
 }
@@ -136,7 +136,7 @@ bool link_logs(link_t *l, const request_packet_t *r) {
 
 // --- data --------------------------------------------------------------------------------------------------
 
-// To half precision, to the nearest and to even; too large is infinite.
+// Converts to half precision, rounding to nearest even; what is too large becomes infinite.
 static uint16_t half_of(float value) {
   uint32_t bits;
   memcpy(&bits, &value, sizeof bits);
@@ -150,7 +150,7 @@ static uint16_t half_of(float value) {
   return sign | (uint16_t)((rounded >> 13) - (112u << 10));
 }
 
-// A whole number is taken as the firmware does: cut off, and its low bytes sent.
+// Whole numbers as in the firmware: truncated, and the low bytes sent.
 static int pack(uint8_t *to, uint8_t type, double value) {
   const float real = (float)value;
   const uint16_t half = half_of(real);

@@ -1,4 +1,4 @@
-// link_memory.c - port 4: the memories that a client may read and write. There is one, of trajectories.
+// link_memory.c - port 4: the memories that a client may read and write. There is one, for trajectories.
 #include "link/link.h"
 
 #include <string.h>

@@ -49,7 +49,7 @@ static void tell_value(link_t *l, int i, const uint8_t *id) {
   link_answer(l, PORT, READ, out, size);
 }
 
-// As it stands in the packet, so that what is echoed is what was sent.
+// Writes a parameter. The answer is the packet, so that it echoes what was sent.
 static void take_value(link_t *l, int i, const request_packet_t *r) {
   uint8_t out[LINK_DATA_MAX];
   memcpy(out, r->data, sizeof out);
@@ -59,7 +59,7 @@ static void take_value(link_t *l, int i, const request_packet_t *r) {
     return;
   }
   const int type = firmware_param_row(l->firmware, i).type;
-  if (type & PARAM_RONLY || r->size < 2 + link_param_bytes(type)) return; // as the firmware: no word
+  if (type & PARAM_RONLY || r->size < 2 + link_param_bytes(type)) return; // no answer, as in the firmware
   link_answer(l, PORT, WRITE, out, r->size);
   firmware_param_set(l->firmware, i, values_of_param(type, r->data + 2));
 }
@@ -69,7 +69,7 @@ static size_t length(const char *text, size_t most) {
   return end ? (size_t)(end - text) : most;
 }
 
-// "group\0name\0", type, value.
+// The packet has "group\0name\0", type, value.
 static bool write_by_name(link_t *l, const request_packet_t *r) {
   const char *const group = (const char *)r->data + 1;
   const size_t left = LINK_DATA_MAX - 1, n = length(group, left);
@@ -118,8 +118,8 @@ static int tell_default(const link_t *l, int i, uint8_t *out) {
   return 1 + put(l, out + 1, i, firmware_param_default(l->firmware, i));
 }
 
-// Of a parameter that is there: its answer behind the command and the number, out[0] NOT_THERE so far. How
-// many bytes; 0: not understood.
+// Writes the answer about parameter i, which exists, to out, behind command and number; out[0] is NOT_THERE
+// so far. Returns how many bytes; 0: not understood.
 static int of_one(link_t *l, uint8_t what, int i, uint8_t *out) {
   const bool persistent = firmware_param_row(l->firmware, i).type & PARAM_PERSISTENT;
   switch (what) {
