@@ -47,7 +47,7 @@ static double ratio_at(const air_garage_param_t *p, double z_m) {
   return air_garage_ceiling_ratio(p, p->ceiling_m - z_m) * air_garage_ground_ratio(p, z_m - p->ground_m);
 }
 
-// The root of the ratio at rotor i; NaN below the ground form's pole.
+// The square root of the ratio at rotor i; NaN below the pole of the ground formula.
 static double rotor_root(const air_garage_param_t *p, const pilot_in_t *in, int i) {
   const d3_t at = dq_to_world(in->q_wb, (d3_t){p->ahead_m[i], p->left_m[i], 0.0});
   return sqrt(ratio_at(p, in->pos_w_m.z + at.z));
@@ -62,7 +62,7 @@ static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]
   stock_mix(&command, unit);
   for (int i = 0; i < PILOT_MOTORS; i++) {
     if (p->how == AIR_GARAGE_PER_ROTOR) unit[i] /= rotor_root(p, in, i);
-    unit[i] = clip(unit[i], 0.0, STOCK_FULL); // not a number becomes 0
+    unit[i] = clip(unit[i], 0.0, STOCK_FULL); // NaN becomes 0
   }
   stock_power_step(&s->pid.power, &s->pid.param.power, unit, in->vbat_V, motor_N);
 }

@@ -12,8 +12,8 @@
 #define GAIN_MAX    1e5
 #define RATE_MIN_HZ 10.0
 #define RATE_MAX_HZ 10000.0
-#define OVERHEAD    1.10 // of the firmware's limits of speed
-#define CLIMB_MIN   0.5  // its least limit of climb
+#define OVERHEAD    1.10 // factor on the firmware's velocity limits
+#define CLIMB_MIN   0.5  // the firmware's smallest limit of climb, m/s
 
 // --- the firmware's PID -----------------------------------------------------------------------------------
 
@@ -95,7 +95,7 @@ static done_t no_param(toml_t group, const char *key, const char *name, why_t *w
                      nearest_hint(&nearest, hint));
 }
 
-// One parameter; `all` has those before it.
+// Reads one parameter; `all` holds those read before it.
 static done_t read_param(toml_t group, const char *key, const char *name, flown_by_t *by, flight_param_t *all,
                          why_t *why) {
   const param_row_t *const row = params_find(name);

@@ -1,4 +1,4 @@
-// flown_by.h - who flew the logs of a vehicle, as far as its file says (the table [controller],
+// flown_by.h - which controller flew the logs of a vehicle, as far as its file says (the table [controller],
 // controller_file.h).
 #ifndef SIM_PILOTS_FLOWN_BY_H
 #define SIM_PILOTS_FLOWN_BY_H
@@ -17,8 +17,8 @@ typedef struct {
 typedef struct {
   flown_by_kind_t kind;
   double rate_Hz;        // FLOWN_BY_OTHER: how often it commands the motors
-  stock_pid_param_t pid; // FLOWN_BY_STOCK_PID; of its power thrust_max_N alone: what 65535 stands for
-  int n_set;             // FLOWN_BY_INDI: what differs from the flight code's defaults
+  stock_pid_param_t pid; // FLOWN_BY_STOCK_PID; of `power` only thrust_max_N is read: one motor at 65535
+  int n_set;             // FLOWN_BY_INDI: parameters that the file sets
   flown_by_set_t set[FLOWN_BY_SETS];
 } flown_by_t;
 

@@ -31,7 +31,7 @@ void param_thesis(flight_param_t *p) {
              {"ceil.law", (float)LAW_THESIS},
              {"ceil.hold", (float)HOLD_LATCHED}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++)
-    (void)!params_set(p, params_find(row[i].name), row[i].value); // each is in its range: a test
+    (void)!params_set(p, params_find(row[i].name), row[i].value); // each is in its range: a test checks it
 }
 
 const char *param_hint(const char *name, char hint[NEAREST_HINT]) {

@@ -6,7 +6,7 @@
 #include "base/nearest.h"
 #include "flight/params.h"
 
-// A parameter of the app alone, which the flight code does not have (ceil.shadow).
+// A parameter that only the app has, not the flight code (ceil.shadow).
 typedef struct {
   const char *name, *help;
   float initial, max; // whole numbers from 0
@@ -21,14 +21,15 @@ typedef struct {
   float value;
 } param_set_t;
 
-// The app has to have it (crazyflie/sections.h). BAD_INPUT: not of that form, no such parameter, or out of
-// its range.
+// Reads "group.name=value"; the app must have the parameter (crazyflie/sections.h). BAD_INPUT: not of that
+// form, no such parameter, or out of its range.
 MUST_CHECK done_t param_parse(const char *text, param_set_t *set, why_t *why);
 
-// The thesis's law: the rows in which it differs from what ships are set to what the thesis has.
+// Sets the parameters in which the thesis's control law differs from what ships to the thesis's values.
 void param_thesis(flight_param_t *p);
 
-// Behind a name that is no parameter: the one that may be meant (base/nearest.h). Returns hint.
+// Fills and returns hint, a suggestion to follow a name that is no parameter: the one that may be meant
+// (base/nearest.h).
 const char *param_hint(const char *name, char hint[NEAREST_HINT]);
 
 // BAD_INPUT: the set as a whole contradicts itself (params_check).

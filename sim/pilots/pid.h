@@ -4,9 +4,9 @@
 //   u_c = clip(P e + I int(e) + D N (e - x)),   x' = N (e - x)    filtered derivative, forward Euler
 //   T_c = u_c + m g - (ratio - 1)(u + m g)                        feed-forward, after the clip
 //
-// e is set point minus height, u + m g the thrust of the rotors, ratio by Cheeseman-Bennett with the clip of
-// section 4.2.2. With N fixed the discrete derivative is unstable from period 2/N on: the thesis's "untunable
-// at 0.02 s" is that (src/README.md, reading rules).
+// e: set point minus height; u + m g: thrust of the rotors; ratio: by Cheeseman-Bennett, with the clip of
+// section 4.2.2. With N fixed the discrete derivative is unstable at periods of 2/N and more, which explains
+// the thesis's "untunable at 0.02 s" (src/README.md, reading rules).
 #ifndef SIM_PILOTS_PID_H
 #define SIM_PILOTS_PID_H
 
@@ -15,7 +15,7 @@
 typedef struct {
   double p, i, d; // N/m, N/(m s), N s/m
   double n_per_s; // of the derivative filter
-  double limit_N; // of the PID's output, both ways
+  double limit_N; // of the PID's output, in both directions
   double hover_N; // m g
   bool feed_forward;
   double ceiling_m; // height of the ceiling, for the feed-forward

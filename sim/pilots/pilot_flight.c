@@ -10,7 +10,7 @@
 
 _Static_assert(MOTORS == PILOT_MOTORS, "the same vehicle on both sides");
 
-// Writes what differs from what the app was told.
+// Writes parameters that differ from those last sent. False: the app lacks one.
 static bool send(pilot_flight_t *p) {
   bool known = true, weights = false;
   for (int i = 0; i < params_count; i++) {
@@ -26,19 +26,20 @@ static bool send(pilot_flight_t *p) {
   return known;
 }
 
-// Who changes them has called the vehicle home: to look at all of them costs as much as its supervisor.
+// Only if `touched`: who changes parameters has called crazyflie_home(), and to compare all of them costs as
+// much as the supervisor.
 static void send_what_differs(pilot_flight_t *p) {
   if (memcmp(&p->param, &p->sent, sizeof p->param) != 0) (void)send(p);
   p->vehicle.touched = false;
 }
 
-// At every call, or the second of so many as loop keeps its samples.
+// At every call, or the second of log_every_ms, as loop keeps its samples.
 static bool keeps(const void *state, uint32_t step) {
   const pilot_flight_t *const p = state;
   return p->log_every_ms == 1 || (p->log_every_ms > 1 && step % (uint32_t)p->log_every_ms == 1);
 }
 
-// Without memory the rows end.
+// Without memory no more rows are kept.
 static void keep(void *state) {
   pilot_flight_t *const p = state;
   const int width = p->log_width;
@@ -83,8 +84,8 @@ done_t pilot_flight_init(pilot_flight_t *p, const flight_param_t *param, const m
   p->n_log = p->room_log = 0;
   p->log_every_ms = 0;
   p->log_width = sections_logs();
-  memset(&p->sent, 0xff, sizeof p->sent); // nothing was told: no float and no whole number is this
-  // As a pilot does who has seen enough of it in shadow.
+  memset(&p->sent, 0xff, sizeof p->sent); // nothing is sent yet: no parameter has these bits
+  // As a person does who has seen enough of it in shadow.
   if (!crazyflie_set(&p->vehicle, "ceil.shadow", 0.0) || !send(p)) return FAILED;
   crazyflie_start(&p->vehicle);
   *pilot = (pilot_t){.state = p,

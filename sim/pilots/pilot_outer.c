@@ -1,4 +1,4 @@
-// pilot_outer.c - the outer loop alone at the controls.
+// pilot_outer.c - the outer loop alone as a pilot.
 #include "pilots/pilot_outer.h"
 
 #include "base/constants.h"
@@ -30,7 +30,7 @@ static void step(void *state, const pilot_in_t *in, double motor_N[PILOT_MOTORS]
   const outer_in_t flight_in = {
       .pos_w_m = {.z = (float)in->pos_w_m.z},
       .vel_w_mps = {.z = (float)in->vel_w_mps.z},
-      // 9.81 is no float: as the outer loop takes it off again, so that at rest there is none.
+      // The outer loop takes off 9.81 as a float: that float is put back here, so that at rest 0 is left.
       .acc_b_mps2 = {.z = (float)(in->acc_b_mps2.z - G_MPS2) + GRAVITY_MPS2},
       .q_wb = {.w = 1.0f},
       .thrust_N = (float)applied_N,
