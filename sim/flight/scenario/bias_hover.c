@@ -1,10 +1,10 @@
 // bias_hover.c - what a constant error b of the accelerometer does to the height (thesis C.3): a hover at 0.4
-// m in free air, measured from the 20th second on, beside what the loop's and the estimator's equations say:
+// m in free air, measured from 20 s on, beside the prediction of the loop's and the estimator's equations:
 //
 //   error = -(b / Kd + 0.153 b) / Kp - 0.0122 b
 //
-// (0.153 s of wrong climb and 0.0122 s2 of wrong height are the estimator's, see sense/ekf.h). Each row
-// is the difference to the same flight, same seed, without the error.
+// (0.153 s of wrong climb and 0.0122 s2 of wrong height are the estimator's, see sense/ekf.h). shift_mm is
+// the difference to the same flight, same seed, without the error.
 #include "flight/scenario.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ static void tell(const setup_t *setup, double bias_mps2, double height_m, double
   const double kp = (double)setup->flight.pos.kp_z_per_s, kd = (double)setup->flight.pos.kd_z_per_s;
   const double climb_mps = bias_mps2 / kd + EKF_CLIMB_S * bias_mps2;
   const double predicted_m = -climb_mps / kp - EKF_HEIGHT_S * bias_mps2;
-  // The law is that of this INDI; its peers have others.
+  // The equation holds for this INDI's law; its peers have others.
   const bool known = setup->kind <= FLY_INDI_LIVE;
   cJSON *row = result_add_row(result, "bias");
   cJSON_AddNumberToObject(row, "bias_mps2", bias_mps2);
@@ -53,7 +53,7 @@ static done_t run(const request_t *request, result_t *result, why_t *why) {
   static const double bias_mps2[] = {-0.1, -0.05, 0.05, 0.1};
   setup_t setup;
   TRY(setup_thesis(&setup, FLY_INDI, why));
-  setup.flight.bias.pole_radps = 0.0f; // what it costs where nothing finds it
+  setup.flight.bias.pole_radps = 0.0f; // no bias observer: what the error costs where nothing finds it
   setup.model.ceiling_m = HUGE_VAL;
   setup.model.n_fx = 0;
   TRY(setup_apply(&setup, request, why));

@@ -1,14 +1,15 @@
-// channel.c - between a floor and a ceiling 15 cm above it, by motion capture: a flow deck sees no flow so
-// low. First over the floor alone, 20 to 1.5 cm, where the floor's curve is learned from nothing; then in the
-// channel, where the ceiling's is learned from nothing, without the floor's curve and with it: what the floor
-// gives would be learned as the ceiling's. What each curve says stands beside what that surface gives. The
-// floor's effect is what recorded flights of a Crazyflie show (sim/gap/README.md).
+// channel.c - between a floor and a ceiling 15 cm above it, by motion capture, because a flow deck sees no
+// flow so low. The first flight, over the floor alone at 20 to 1.5 cm, learns the floor's curve from nothing.
+// Two flights in the channel learn the ceiling's curve from nothing: one without the floor's curve, which
+// learns the floor's effect as the ceiling's, and one with it. The result has each learned curve beside the
+// true effect of that surface. The floor's effect is what recorded flights of a Crazyflie show
+// (sim/gap/README.md).
 #include "flight/scenario.h"
 
 #include <stdio.h>
 
 #define CHANNEL_M 0.15
-#define OPEN_M    2.0 // above this floor no ceiling is felt or seen
+#define OPEN_M    2.0 // ceiling over the floor alone: neither felt nor seen
 #define HOLD_S    10.0
 
 static const double floor_m[] = {0.2, 0.1, 0.06, 0.03, 0.015}, gap_m[] = {0.06, 0.08, 0.05, 0.03, 0.02};
@@ -18,7 +19,7 @@ static done_t add_floor(model_t *model, why_t *why) {
   fx_use_t ground = fx_use(fx_find("ground"));
   ground.p[0] = 0.504; // Ca
   ground.p[1] = 0.763; // Cb
-  ground.p[2] = 0.0;   // of all rotors together: the fountain under the vehicle
+  ground.p[2] = 0.0;   // each: one distance for all rotors, for the fountain under the vehicle
   return model_add_fx(model, &ground, why);
 }
 

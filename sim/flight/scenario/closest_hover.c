@@ -1,5 +1,5 @@
 // closest_hover.c - how near a controller can hover: from 7 cm one step to each gap from 30 to 8 mm, 20 s
-// there. What a linear analysis says (standard INDI, 8 Hz: 22.8 mm), shown by flights.
+// there. Shows by flights what a linear analysis says (standard INDI, 8 Hz: 22.8 mm).
 #include "flight/scenario.h"
 
 #include "base/constants.h"

@@ -1,14 +1,14 @@
 // hand_held.c - the vehicle, motors off, carried by hand up to the ceiling in steps of 2 cm (thesis figures
-// C.1 to C.6), and what algorithm 1 takes the ceiling's height to be: estimated height + estimated distance.
+// C.1 to C.6), and the ceiling's height by algorithm 1: estimated height + estimated distance.
 //
 //   each sensor sample:  zc += 0.1 (range - zc)
-//   each 10 ms:          zc -= climb
+//   each 10 ms:          zc -= climb in these 10 ms
 //
-// With the gate it is the flight code's own (flight/ceiling.h, all that it adds to the thesis included),
-// without gate the two lines above. Below its floor of 4 cm the upward sensor is wrong. How it is wrong
-// decides where the estimate without the gate goes: a sensor that stays at 40 mm (as here in flight) lifts
-// the ceiling, one that says 0, which is what the thesis saw ("a distance of 0 cm is a wrong measurement"),
-// lets it fall. Both are flown, with and without gate.
+// With the gate this is the flight code's own (flight/ceiling.h, with all that it adds to the thesis),
+// without it the two lines above. Nearer than its floor of 4 cm the upward sensor is wrong, and how it is
+// wrong decides where the estimate without the gate goes: a sensor that stays at 40 mm (as here in flight)
+// lifts the ceiling; one that says 0, as the thesis saw ("a distance of 0 cm is a wrong measurement"), lets
+// it fall. Both are simulated, with and without gate.
 #include "flight/scenario.h"
 
 #include "base/constants.h"
@@ -27,13 +27,13 @@
 #define HOLD_S      4.0
 #define MOVE_S      1.0
 #define GAIN        0.1
-#define UP_AGE_S    0.07 // what the app takes an upward sample's age to be
+#define UP_AGE_S    0.07 // age of an upward sample, as the app assumes it
 #define TICK_MS     10
 
 typedef struct {
   bool gate, says_0;
   ceiling_t ceiling; // with the gate
-  bool known;        // without
+  bool known;        // without it
   double zc_m;
 } algorithm1_t;
 
@@ -51,7 +51,7 @@ static void correct(algorithm1_t *a, const ceiling_param_t *p, double range_m, b
   a->zc_m += GAIN * (measured_m - a->zc_m);
 }
 
-// Height of the rotors' plane and distance to the ceiling; NaN: none known.
+// Returns the ceiling's height: that of the rotors' plane plus the distance; NaN: none known.
 static double height_of(const algorithm1_t *a, double height_m) {
   if (!a->gate) return height_m + a->zc_m;
   return a->ceiling.known ? height_m + (double)a->ceiling.zc_m : (double)NAN;
@@ -73,7 +73,7 @@ static double gap_of(int step) {
   return FIRST_GAP_M - STEP_M * step;
 }
 
-// Height of the rotors' plane: at rest, lifted, then step by step; without a jump of the acceleration.
+// Returns the height of the rotors' plane: at rest, lifted, then step by step, with continuous acceleration.
 static double path_m(const model_t *model, double t_s) {
   const double rest_m = body_rest_z_m(model) + body_rotor_z_m(model);
   const double since_s = t_s - REST_S - LIFT_S;
@@ -113,7 +113,7 @@ static void hand_ms(hand_t *s, long ms) {
       .flow_span_s = range.flow_span_s,
   };
   s->height_m = ekf_step(&s->ekf, &in).pos_w_m.z + body_rest_z_m(s->model) + body_rotor_z_m(s->model);
-  // A new sample falls on a tick: both periods are whole numbers of it.
+  // A new upward sample falls on a tick, of which its period is a multiple.
   if (ms % TICK_MS != 0) return;
   const double climb_m = s->height_m - s->height_last_m;
   s->height_last_m = s->height_m;

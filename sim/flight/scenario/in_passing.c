@@ -1,7 +1,7 @@
-// in_passing.c - learning without a learning flight: 20 cm below the ceiling, 10 s at 3 cm, and on to 20 and
-// 15 mm, the curve learned on the way and flown by at once. Three starts: no ceiling at all, half and twice
-// the excess of the fixed weights. What was learned at 3 cm has to do nearer than that, too: the excess of
-// the ratio over 1 where it was learned and the slope at 15 mm, each beside the plant's.
+// in_passing.c - learning without a learning flight: 20 cm below the ceiling, 10 s at 3 cm, then 20 and 15
+// mm, with a curve that is learned on the way and used at once. Three curves to start from: flat, and half
+// and twice the excess of the fixed weights. What was learned at 3 cm has to serve nearer than that, too. So
+// the result has the excess of the ratio over 1 at 3 cm and the slope at 15 mm, each beside the plant's.
 #include "flight/params.h"
 #include "flight/scenario.h"
 
@@ -24,7 +24,7 @@ static rbf_weights_t scaled(const rbf_weights_t *w, float share) {
   return part;
 }
 
-// Of the curve that was flown by when 3 cm are left.
+// Returns the weights of the curve that was flown when the vehicle left 3 cm.
 static rbf_weights_t learned_until(const record_t *r, double until_s) {
   rbf_weights_t w = {{1.0f}};
   for (int i = 0; i < r->n && r->sample[i].t_s < until_s; i++)
@@ -53,7 +53,7 @@ static done_t fly_from(setup_t setup, int start, result_t *result, why_t *why) {
   flight_param_t ships;
   params_default(&ships);
   TRY(setup_fly(&setup, &flown, why));
-  // A start is no parameter that is set.
+  // The curve to start from does not count as a parameter that was set.
   flown.shipped.curve.fixed = scaled(&ships.curve.fixed, START[start].share);
   const rbf_weights_t w = learned_until(&flown.record, setup.plan.way[2].at_s);
   tell(START[start].name, &w, &setup.model, result);

@@ -1,4 +1,4 @@
-// inner_loop.c - a hover in free air that is shaken: what out/effectiveness needs to see of the inner loop.
+// inner_loop.c - a hover in free air with steps in position and heading, for out/effectiveness.
 #include "flight/scenario.h"
 
 #include <math.h>
@@ -6,10 +6,10 @@
 #define HOVER_M  1.0
 #define START_S  5.0
 #define END_S    65.0
-#define SIDE_M   0.1 // of the square that is flown
+#define SIDE_M   0.1 // side of the square that is flown
 #define CORNER_S 0.6
 #define YAW_RAD  0.1
-#define YAW_S    0.45 // no whole part of the other period: both signals stay apart
+#define YAW_S    0.45 // does not divide the other period: the signals can be told apart
 
 static void shake(void *context, const body_t *truth, pilot_in_t *in) {
   (void)context;

@@ -1,4 +1,4 @@
-// nearest_flight.c - how near a vehicle can be flown: the close flight's way down to 4 cm, then 20 mm and on
+// nearest_flight.c - how near a vehicle can be flown: 20, 10, 6 and 4 cm below the ceiling, then 20 to 12 mm
 // in steps of 2 and 1 mm, 10 s each, in six degrees of freedom with real sensors. The top of the body is 8 mm
 // above the propellers.
 #include "flight/scenario.h"

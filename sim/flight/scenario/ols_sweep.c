@@ -1,6 +1,6 @@
-// ols_sweep.c - the thesis's figures B.3 to B.10: the measured ratio through a moving average, the newest
-// value of each of 21 bins fitted by least squares. On a fast way down the slow averages still carry the
-// ratio of 2 cm: two lines.
+// ols_sweep.c - the thesis's figures B.3 to B.10: the measured ratio goes through a moving average, and the
+// newest value of each of 21 bins is fitted by least squares. On a fast way down the slow averages still hold
+// the ratio of 2 cm, so that the way up and the way down give two lines.
 #include "flight/scenario/sweep.h"
 
 #include "base/lsq.h"
@@ -11,7 +11,7 @@
 #define BACK_S 10.0 // from the turn to the end
 
 typedef struct {
-  double share;            // of a new sample, the thesis's v_t
+  double share;            // weight of a new sample, the thesis's v_t
   double newest[BINS];     // NaN: not visited
   double up_sum, down_sum; // filtered ratio between 4 and 8 cm on the way to the ceiling and back
   int up_n, down_n;

@@ -1,6 +1,6 @@
-// pid_tables.c - the thesis's tables 4.2 to 4.5: sixteen tuned PIDs under a ceiling, which touch it.
-// "segments" are the continuous ones; "discrete" the same with the controller at 18 and 20.2 ms, on either
-// side of the derivative filter's limit of stability.
+// pid_tables.c - the thesis's tables 4.2 to 4.5: sixteen tuned PIDs under a ceiling, and which of them touch
+// it. "segments" has the continuous ones; "discrete" the same with a controller period of 18 and 20.2 ms, on
+// either side of the derivative filter's limit of stability.
 #include "flight/scenario.h"
 
 #include "base/constants.h"
@@ -39,9 +39,9 @@ static done_t fly(const row_t *row, const request_t *request, double period_s, f
   params_default(&setup.flight);
   TRY(model_builtin("thesis_pid", &setup.model, why));
   request_t own = *request;
-  own.kind = NULL; // the table says which
+  own.kind = NULL; // the table says which controller flies
   TRY(setup_apply(&setup, &own, why));
-  setup.model.ceiling_m = row->ceiling_m; // whatever vehicle flies
+  setup.model.ceiling_m = row->ceiling_m; // also for another vehicle
   setup.plan.start_thrust_N = setup.model.mass_kg * G_MPS2;
   return setup_fly(&setup, flown, why);
 }

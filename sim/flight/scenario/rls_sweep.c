@@ -1,5 +1,5 @@
-// rls_sweep.c - the thesis's figures B.11 to B.20: one learning flight, its samples given to the learner with
-// seven pairs of lambda and p0. In the thesis's form only lambda/p0 matters (src/README.md, reading rules).
+// rls_sweep.c - the thesis's figures B.11 to B.20: the samples of one learning flight, learned with seven
+// pairs of lambda and p0. In the thesis's form only lambda/p0 matters (src/README.md, reading rules).
 #include "flight/scenario/sweep.h"
 
 #define VISITED_NEAR_M 0.02

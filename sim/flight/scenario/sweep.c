@@ -1,4 +1,4 @@
-// sweep.c - one learning flight, learned from in several ways.
+// sweep.c - learning from one flight in several ways.
 #include "flight/scenario/sweep.h"
 
 #include <stdlib.h>

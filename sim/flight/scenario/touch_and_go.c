@@ -1,8 +1,8 @@
-// touch_and_go.c - touching a ceiling with intent: from 6 cm below it to its height and back, three times, in
-// six degrees of freedom with real sensors. The top of the body touches 8 mm before the propellers are there;
-// a height beyond the ceiling would be flown 6 mm below it (OUTER_CLIP_M), too little to press where the
-// range sensors are wrong. A segment's overshoot after a touch is how far the vehicle fell below where it was
-// to be caught.
+// touch_and_go.c - touching a ceiling on purpose: from 6 cm below it to its height and back, three times, in
+// six degrees of freedom with real sensors. The top of the body touches 8 mm before the propellers are there.
+// A set point beyond the ceiling would be flown 6 mm below it (OUTER_CLIP_M), which presses too little where
+// the range sensors are wrong. A segment's overshoot after a touch is how far the vehicle fell below its set
+// point.
 #include "flight/scenario.h"
 
 #define HOLD_S 5.0

@@ -1,4 +1,4 @@
-// uneven_floor.c - take-off from a floor of 5 degrees to 0.4 m, a hover, and half a metre aside.
+// uneven_floor.c - take-off to 0.4 m from a floor that rises by 5 degrees, a hover, and half a metre aside.
 #include "flight/scenario.h"
 
 #include <math.h>
