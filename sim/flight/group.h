@@ -1,4 +1,4 @@
-// group.h - eight flights that are flown at once: the inside of flight/together.h.
+// group.h - eight flights that are flown at once; internal to flight/together.h.
 #ifndef SIM_FLIGHT_GROUP_H
 #define SIM_FLIGHT_GROUP_H
 
@@ -16,7 +16,7 @@ typedef struct {
 
 typedef struct group group_t;
 
-// When a flight parted from the others last; it is by itself so long, until then.
+// When a flight last parted from the others, and how long and until when it rests (flies by itself).
 typedef struct {
   uint32_t parted_ms, rest_ms, back_ms;
 } apart_t;
@@ -30,32 +30,32 @@ struct group {
   woven_t woven;
   abreast_t *bodies;
   job_t *job[LANES];
-  unsigned fly;     // lanes in which a flight is, a bit each
-  unsigned sensed;  // of these, those whose sensors and estimator are in lanes; the others' will be again
-  unsigned vehicle; // of these, those whose pilot is in lanes, too
-  unsigned out;     // those whose pilot will be, and flies by itself meanwhile
-  unsigned edited;  // those with somebody between sensors and pilot
-  unsigned mocap;   // those that motion capture sees
-  unsigned keeps;   // those whose pilot keeps its log
-  unsigned looked;  // and those at whose state somebody looks,
-  const pilot_around_t *around; // this one
+  unsigned fly;     // lanes that hold a flight, a bit each
+  unsigned sensed;  // of these, those whose sensors and estimator are in lanes; the others will return
+  unsigned vehicle; // of `fly`, those whose pilot is in lanes
+  unsigned out;     // those whose pilot flies by itself for now, and will return
+  unsigned edited;  // those with plan_t.edit or pilot_t.around
+  unsigned mocap;   // those with motion capture
+  unsigned keeps;   // those whose pilot keeps a log
+  unsigned looked;  // those with pilot_t.around,
+  const pilot_around_t *around; // the same for all of them
   uint32_t ms;
-  // What of flight_loop_t is kept here while they fly, for most ticks need nothing else of it.
-  long tick, until; // until: before that tick nobody has an order due, or is over
+  // Members of flight_loop_t that are kept here in flight, because most ticks need no others.
+  long tick, until; // until: before this tick no flight has a set point due or ends
   int every[LANES];
   double up_min[LANES], gap_min_m[LANES];
-  random_t *random[LANES]; // of those that fly
-  apart_t apart[LANES], apart_sensed[LANES];
+  random_t *random[LANES];                   // null: no flight
+  apart_t apart[LANES], apart_sensed[LANES]; // of pilots; of sensors and estimators
   place_t place[LANES];
-  pilot_in_t told[LANES]; // edited
-  long together;
+  pilot_in_t told[LANES]; // what edited pilots get
+  long together;          // milliseconds that pilots flew in lanes
   union {
     glue_t app;
     flight_loop_t flight;
-  } nobody; // what is woven of lanes in which nobody is
+  } nobody; // stands for the flight of an empty lane
 };
 
-// Of each lane in `of` the address of something of its flight, of the others that of nobody.
+// Declares name[LANES]: the address of something of flight k for lanes in `of`, of `nobody` for others.
 #define OF_EACH(name, of, something)                                                                         \
   void *name[LANES];                                                                                         \
   for (int k = 0; k < LANES; k++) name[k] = (of) >> k & 1 ? (void *)(something) : (void *)&g->nobody
@@ -64,27 +64,27 @@ struct group {
   for (int k = 0; k < LANES; k++)                                                                            \
     if ((of) >> k & 1)
 
-// The bodies' own numbers.
+// Brings the body_t of these flights up to date, which lag behind in lanes.
 void group_settle(group_t *g, unsigned of);
 
-// Who parts does up to 16 ms again and 8 on average, as far back as the last copy is (lanes_state.cpp). Who
-// parts a second time within two copies flies by itself until the next; where that goes on (it is down, or
-// handed over, and the others fly), twice as long each time, to half a second, after which a try costs
-// little.
+// A flight that parts repeats the milliseconds since the last copy, up to 32 and 16 on average (SINCE of
+// lanes_state.cpp). If it parts again within APART_SOON_MS of its last rest, it rests for APART_REST_MS and
+// on to the next copy. Where that goes on (it is down, or handed over, and the others fly), each rest is
+// twice as long, up to half a second, after which another try costs little.
 #define APART_SOON_MS     32
 #define APART_REST_MS     16
 #define APART_REST_MAX_MS 512
 #define APART_NEVER       ((apart_t){.parted_ms = 0u - APART_SOON_MS - 1})
-// A flight parts: whether it stays by itself.
+// Notes that a flight parted at ms. True if it has to rest.
 bool group_parts(apart_t *a, uint32_t ms);
-// Whether it may come back.
+// True if its rest is over at ms.
 bool group_rested(const apart_t *a, uint32_t ms);
 
-// Whose pilot can be in lanes is, from the first millisecond on.
+// Marks the pilot of flight k as in lanes from the first millisecond on, if it can be.
 void group_begin_vehicle(group_t *g, int k);
-// A millisecond of all sensors and estimators.
+// Runs a millisecond of all sensors and estimators.
 void group_sense(group_t *g);
-// A millisecond of all pilots.
+// Runs a millisecond of all pilots.
 void group_pilots(group_t *g);
 
 #endif

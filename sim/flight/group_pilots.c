@@ -17,8 +17,8 @@ static pilot_t *pilot_of(const group_t *g, int k) {
 
 // --- in and out --------------------------------------------------------------------------------------------
 
-// A pilot whose state nobody touches but the vehicle's millisecond, or who says so (crazyflie_home). Of those
-// who look at it, one of a kind.
+// True if the pilot can fly in lanes: nothing but the vehicle's millisecond touches its state without calling
+// crazyflie_home() first, and whatever looks at it (pilot_t.around) is the same for all.
 static bool is_vehicle(const group_t *g, const flight_loop_t *f) {
   const crazyflie_t *const c = f->pilot->vehicle;
   const pilot_around_t *const around = f->pilot->around;
@@ -32,7 +32,7 @@ void group_begin_vehicle(group_t *g, int k) {
   g->vehicle |= 1u << k;
   g->place[k] = (place_t){g, k};
   g->apart[k] = APART_NEVER;
-  if (f->pilot->keeps && f->pilot->keeps(f->pilot->state, 1)) g->keeps |= 1u << k; // who does keeps that one
+  if (f->pilot->keeps && f->pilot->keeps(f->pilot->state, 1)) g->keeps |= 1u << k; // any log has step 1
   if (f->plan->edit || f->pilot->around) g->edited |= 1u << k;
   if (!f->pilot->around) return;
   g->looked |= 1u << k;
@@ -40,7 +40,7 @@ void group_begin_vehicle(group_t *g, int k) {
   g->around = f->pilot->around;
 }
 
-// Its state is its own until the next copy, or longer.
+// Takes the pilot out of lanes, until the next copy or longer.
 static void leave(group_t *g, int k) {
   g->vehicle &= ~(1u << k);
   g->out |= 1u << k;
@@ -61,7 +61,7 @@ static void keep(group_t *g, int k) {
   if (p->keeps && p->keeps(p->state, g->ms)) p->keep(p->state);
 }
 
-// Who differs from the others does the millisecond again, alone.
+// Repeats alone the milliseconds since the last copy, for a flight that parted.
 static void part(group_t *g, int k) {
   woven_pilot_alone(&g->woven, k, g->job[k]->f);
   keep(g, k);
@@ -71,7 +71,7 @@ static void part(group_t *g, int k) {
     woven_vehicle_back(&g->woven, k, g->job[k]->f);
 }
 
-// --- somebody between sensors and pilot --------------------------------------------------------------------
+// --- edited inputs -----------------------------------------------------------------------------------------
 
 // crazyflie_t.bring_home
 static void bring_home(void *context) {
@@ -83,7 +83,7 @@ static void bring_home(void *context) {
   leave(g, at->k);
 }
 
-// What somebody makes of a flight's pilot_in_t. Who brought the vehicle home has its pilot called for it.
+// Lets plan_t.edit edit a flight's pilot_in_t. If that brings the vehicle home, its pilot is called here.
 static void edit(group_t *g, int k) {
   flight_loop_t *const f = g->job[k]->f;
   crazyflie_t *const c = f->pilot->vehicle;
@@ -95,7 +95,7 @@ static void edit(group_t *g, int k) {
   if (!(g->vehicle >> k & 1)) f->pilot->step(f->pilot->state, in, f->motor_N);
 }
 
-// Of all eight, edited or not: to find out what few numbers were edited costs as much.
+// Copies all eight, edited or not, because finding the few numbers that were edited costs as much.
 static void edit_all(group_t *g, void *told, unsigned of) {
   void *in[LANES];
   for (int k = 0; k < LANES; k++) in[k] = &g->told[k];
@@ -105,7 +105,7 @@ static void edit_all(group_t *g, void *told, unsigned of) {
   weave_put_all(weave_block(LANES_in), told, (const void *const *)in);
 }
 
-// Behind a millisecond of those that flew in lanes, and are still in or parted in it.
+// Calls pilot_around_t.after of flights that began the millisecond in lanes, even if they parted in it.
 static void look(group_t *g, unsigned of) {
   const unsigned in = of & g->vehicle;
   OF_EACH(app, in, &pilot_of(g, k)->vehicle->app);

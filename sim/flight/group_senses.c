@@ -35,12 +35,12 @@ static void part(group_t *g, int k) {
     return;
   }
   g->sensed &= ~(1u << k);
-  woven_get(&g->woven, LANES_truth, k, &f->truth); // the tick's other millisecond has it, too
+  woven_get(&g->woven, LANES_truth, k, &f->truth); // the tick's other millisecond needs it, too
 }
 
 // --- a millisecond -----------------------------------------------------------------------------------------
 
-// The inertial sensors' noise of all, in lanes, and for some more than that.
+// Draws the inertial sensors' noise of all in lanes, and the other sensors' where they are due.
 static void draw(group_t *g, senses_drawn_t drawn[LANES]) {
   lanes_draw(g->woven.state);
   random_triangles_of_all(g->random, IMU_DRAWN, woven_noise_of_imu(&g->woven));
@@ -49,10 +49,10 @@ static void draw(group_t *g, senses_drawn_t drawn[LANES]) {
   if (!draws) return;
   EACH(k, draws) {
     flight_loop_t *const f = g->job[k]->f;
-    f->senses.range.tick = g->ms; // in lanes it lags behind
+    f->senses.range.tick = g->ms; // lags behind while in lanes
     loop_draw_more(f, &f->truth, &drawn[k]);
   }
-  // Who is by itself, too: what is not drawn in each millisecond is its own when it comes back.
+  // Also for flights by themselves: what is not drawn in each millisecond must be theirs when they return.
   OF_EACH(drawn_of, g->fly, &drawn[k]);
   woven_put_all(&g->woven, &g->woven.drawn_more, drawn_of);
 }

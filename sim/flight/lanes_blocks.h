@@ -1,6 +1,7 @@
-// lanes_blocks.h - what of a flight lies in lanes: LANES_BLOCKS(X) with X(name, type, where among eight).
+// lanes_blocks.h - the parts of a flight that are kept in lanes: LANES_BLOCKS(X) with X(name, type, place in
+// state_of_eight).
 //
-// The order of each struct's numbers is asked of the compiler (lanes_fields.cpp); pointers stay behind.
+// The compiler tells where the numbers of each struct lie (lanes_fields.cpp). Pointers are not copied.
 #ifndef SIM_FLIGHT_LANES_BLOCKS_H
 #define SIM_FLIGHT_LANES_BLOCKS_H
 
@@ -22,7 +23,7 @@ typedef struct {
   bool it;
 } lanes_flag_t;
 
-// Of the vehicle, and what a millisecond changes of it.
+// The part of the vehicle that a millisecond changes.
 #define LANES_BLOCKS_OF_VEHICLE(X)                                                                           \
   X(supervised, supervised_t, vehicle.supervised)                                                            \
   X(setpoint, setpoint_t, vehicle.setpoint)                                                                  \
@@ -35,7 +36,7 @@ typedef struct {
   X(ordered, lanes_flag_t, vehicle.ordered)                                                                  \
   X(asked, pilot_setpoint_t, vehicle.asked)                                                                  \
   X(called, lanes_flag_t, vehicle.called)
-// What it does not change.
+// The part of the vehicle that it does not change.
 #define LANES_BLOCKS_OF_BUILD(X)                                                                             \
   X(supervised_by, supervised_param_t, vehicle.supervised_by)                                                \
   X(stop, lanes_flag_t, vehicle.stop)                                                                        \
@@ -47,7 +48,7 @@ typedef struct {
   X(seen, ekf_in_t, senses.seen)                                                                             \
   X(ekf, ekf_t, senses.ekf)                                                                                  \
   X(estimate, ekf_out_t, senses.estimate)
-// What of is kept in parts, and what goes in and comes out.
+// Blocks of which copies keep parts only (app, around, range), and inputs and outputs.
 #define LANES_BLOCKS_BETWEEN(X)                                                                              \
   X(app, glue_t, vehicle.app)                                                                                \
   X(around, stand_in_t, vehicle.around)                                                                      \

@@ -1,5 +1,5 @@
-// lanes_eight.hpp - what of eight flights lies in lanes; after base/lane_c.hpp. It lies so for registers of
-// each width (flight/lanes_ms.cpp).
+// lanes_eight.hpp - the state of eight flights in lanes; include it after base/lane_c.hpp. Its layout is the
+// same for registers of either width (flight/lanes_ms.cpp).
 #ifndef SIM_FLIGHT_LANES_EIGHT_HPP
 #define SIM_FLIGHT_LANES_EIGHT_HPP
 
@@ -8,8 +8,8 @@ namespace lanes {
 #include "crazyflie/crazyflie.h"
 #include "flight/lanes_blocks.h"
 
-// All that a millisecond changes, and what it takes. The latter is another one in each, for those of before
-// are kept where they are (lanes_state.cpp).
+// All that a millisecond changes, and its inputs, which are others in each, because earlier ones are kept
+// where they are (lanes_state.cpp).
 struct state_of_eight {
   crazyflie_t vehicle;
   senses_t senses;

@@ -1,5 +1,5 @@
-// lanes_fields.cpp - the numbers of each block of a flight, in the order of its struct. Compiled twice: for
-// one vehicle, and (LANE_FIELDS) for eight.
+// lanes_fields.cpp - where the numbers of each block of a flight lie, in the order of its struct. Compiled
+// twice: for one vehicle, and (LANE_FIELDS) for eight.
 #include "flight/lanes_state.h"
 
 #if defined LANE_FIELDS && !defined __AVX2__

@@ -1,4 +1,4 @@
-// lanes_ms.cpp - milliseconds of eight flights. Compiled twice: for AVX2, and with what AVX-512 has besides.
+// lanes_ms.cpp - milliseconds of eight flights. Compiled twice: for AVX2 and for AVX-512.
 #include "flight/lanes_ms.h"
 #ifdef __AVX2__
 #include "base/lane_c.hpp"
@@ -8,7 +8,7 @@ namespace lanes {
 
 constinit thread_local stand_in_t *stand_in = nullptr;
 
-// What comes so seldom that each does it alone.
+// Calls that are so rare that each flight makes them alone: all leave the lanes.
 void stand_in_print(const char *, ...) {
   lanes_in = 0;
 }
@@ -43,7 +43,7 @@ static plain_unsigned senses(plain_unsigned in, void *of) {
 
 static plain_unsigned vehicle(plain_unsigned in, void *of, const void *told) {
   state_of_eight *const now = static_cast<state_of_eight *>(of);
-  // What control_t holds for other modes shares its place with the forces, and lies in no lane.
+  // In other modes control_t holds something else in the place of the forces, which is in no lane.
   lanes_in = in & (now->vehicle.control.controlMode == controlModeForce || !now->vehicle.called).bits();
   if (!lanes_in) return 0;
   crazyflie_ms(&now->vehicle, static_cast<const pilot_in_t *>(told), now->motors.N);
@@ -54,7 +54,7 @@ static plain_unsigned vehicle(plain_unsigned in, void *of, const void *told) {
 
 #define MS                                                                                                   \
   { lanes::leave<lanes::senses>, lanes::leave<lanes::vehicle> }
-#else // nobody asks for more (lane_possible)
+#else // never called: lane_possible() is false
 #define MS                                                                                                   \
   {}
 #endif

@@ -15,24 +15,24 @@
 #undef unsigned
 #undef bool
 
-// To copy all takes as long as to fly it: it is done once in so many milliseconds, and who parts does them
-// again from there.
+// Copying all state takes as long as flying a millisecond. So it is done once in so many milliseconds, and a
+// flight that parts repeats them from the copy.
 #define SINCE 32
 
-// One more than are asked for: the one of now.
+// One more than are repeated: that of now.
 #define SLOTS (SINCE + 1)
 
 struct lanes_state {
   lanes::state_of_eight now, before;
   lanes::glue_t looked;
-  // What comes in in each, in turn: to sensors and estimator, and to the Crazyflie. `now` is in one of them.
+  // Rings of each millisecond's inputs: of sensors and estimator, and of the Crazyflie. `now` points there.
   lanes::senses_drawn_t drawn[SLOTS];
-  lanes::truth_t truth[SLOTS]; // of ticks
+  lanes::truth_t truth[SLOTS]; // of each tick
   lanes::pilot_in_t in[SLOTS], unedited;
   int slot;                    // of `in`
-  unsigned set, set_of[SLOTS]; // how many set points there were, and which of them each has; 0: none
-  int senses, vehicle;         // milliseconds since
-  const void *drawn_at[SINCE], *truth_at[SINCE], *told_at[SINCE]; // those of each
+  unsigned set, set_of[SLOTS]; // number of set points so far, and which one each of `in` has; 0: none
+  int senses, vehicle;         // milliseconds since the copy
+  const void *drawn_at[SINCE], *truth_at[SINCE], *told_at[SINCE]; // inputs in each
   const lanes_ms_t *ms;
 };
 
@@ -72,7 +72,7 @@ void *lanes_looked(lanes_state_t *s) {
   return &s->looked;
 }
 
-// Parameters change between milliseconds alone (pilot_t.vehicle), and what was printed is nobody's number.
+// Parameters change only between milliseconds (pilot_t.vehicle), and what was printed is in no lane.
 static void keep_app(const lanes::glue_t *from, lanes::glue_t *to) {
   memcpy((void *)to, from, offsetof(lanes::glue_t, tuned));
 }
@@ -82,7 +82,7 @@ static void keep_around(const lanes::stand_in_t *from, lanes::stand_in_t *to) {
 
 #define KEEP(name, type, where) memcpy((void *)&s->before.where, &s->now.where, sizeof s->now.where);
 
-// But for what it remembers: who does it again writes the same place anew.
+// Copies all but past distances: repeating a millisecond writes the same places again.
 static void keep_range(const lanes::range_t *from, lanes::range_t *to) {
   to->tick = from->tick;
   memcpy((void *)&to->up_mm, &from->up_mm, sizeof *to - offsetof(lanes::range_t, up_mm));
@@ -112,7 +112,7 @@ void lanes_set_new(lanes_state_t *s) {
   s->set_of[s->slot] = ++s->set;
 }
 
-// What is edited does not last: what the next one begins with is kept aside.
+// An edit does not last: what the next millisecond begins with is kept aside.
 void *lanes_told(lanes_state_t *s, bool edited) {
   state_of_eight *const now = &s->now;
   if (s->vehicle == SINCE) {
@@ -134,7 +134,7 @@ unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in) {
   return s->ms->vehicle(in, &s->now, s->told_at[s->vehicle++]);
 }
 
-// Set points stand for seconds. What sensors and estimator say comes anew in each millisecond.
+// Set points last for seconds, and are copied when they change. Measurements and estimate are new each time.
 void lanes_step(lanes_state_t *s) {
   const lanes::pilot_in_t *const from = s->now.in;
   s->slot = (s->slot + 1) % SLOTS;
@@ -155,7 +155,7 @@ lanes_since_t lanes_vehicle_since(const lanes_state_t *s) {
   return {s->vehicle, s->told_at, nullptr};
 }
 void lanes_begin_anew(lanes_state_t *s) {
-  memset((void *)s->drawn, 0, sizeof s->drawn); // nobody's by motion capture, for whom each is a copy
+  memset((void *)s->drawn, 0, sizeof s->drawn); // by_mocap false; where true, `drawn` is written every ms
   memcpy((void *)&s->looked, &s->now.vehicle.app, sizeof s->looked);
   s->senses = s->vehicle = SINCE;
   memset(s->set_of, 0, sizeof s->set_of);
@@ -182,7 +182,7 @@ unsigned lanes_range_new(const lanes_state_t *s) {
   return s->now.in->range_new.bits();
 }
 
-#else // nobody asks for more (lane_possible)
+#else // never called: lane_possible() is false
 
 lanes_state_t *lanes_state_open(void) {
   return nullptr;

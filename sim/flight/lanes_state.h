@@ -1,5 +1,5 @@
-// lanes_state.h - the sensors, the estimator and the Crazyflie of eight flights, in lanes: their
-// milliseconds, and the way of their numbers in and out.
+// lanes_state.h - the sensors, the estimator and the Crazyflie of eight flights, in lanes: flies their
+// milliseconds and gives access to their numbers.
 #ifndef SIM_FLIGHT_LANES_STATE_H
 #define SIM_FLIGHT_LANES_STATE_H
 
@@ -14,42 +14,43 @@ extern "C" {
 
 typedef struct lanes_state lanes_state_t;
 
-// Null: no memory.
+// Null: no memory, or built without AVX2.
 lanes_state_t *lanes_state_open(void);
 void lanes_state_close(lanes_state_t *s);
 
-// What is drawn for a millisecond comes after this, into block `drawn`.
+// Call before a millisecond's random numbers are put into block `drawn`.
 void lanes_draw(lanes_state_t *s);
 
-// A millisecond of sensors and estimator, and of the Crazyflie, of the lanes `in` (a bit each). Those that
-// are returned have passed it; the others parted, and are to do it alone from what they were before.
+// Fly a millisecond of sensors and estimator, and of the Crazyflie, of the lanes `in` (a bit each). Return
+// those that passed it; the others parted, and have to repeat it alone from the last copy.
 unsigned lanes_senses_ms(lanes_state_t *s, unsigned in);
 unsigned lanes_vehicle_ms(lanes_state_t *s, unsigned in);
 
-// Before the latter, each time: what the Crazyflie of each is told in it, block `in`, or a copy of it that
-// may be edited.
+// Call before each lanes_vehicle_ms(). Returns what the Crazyflies are told in it (pilot_in_t of eight):
+// block `in`, or if edited a copy that may be edited.
 void *lanes_told(lanes_state_t *s, bool edited);
-// A set point in block `in` is another one.
+// Call when a set point in block `in` has changed.
 void lanes_set_new(lanes_state_t *s);
 
-// What is new of the upward range sensor since the last millisecond, a bit each.
+// Returns the lanes (a bit each) whose upward range is new in this millisecond.
 unsigned lanes_range_new(const lanes_state_t *s);
-// Where what is true at another tick's begin goes: so many rows of 8 numbers in the order of truth_t; and
-// whether their motors turn, a bit each.
+// Begins another tick: returns where its truth goes, rows of 8 numbers in the order of truth_t. Then whether
+// motors turn, a bit each, goes to lanes_take_motors().
 double *lanes_truth(lanes_state_t *s);
 void lanes_take_motors(lanes_state_t *s, unsigned motors);
-// All have called their pilot, and what it was told is looked at no more: block `in` is that of the next
-// millisecond.
+// Call when all pilots have been called and their inputs are no longer read: block `in` becomes that of the
+// next millisecond.
 void lanes_step(lanes_state_t *s);
 
-// Where a block (lanes_blocks.h) lies, and where it lay some milliseconds ago.
+// Return where a block (lanes_blocks.h) lies, and its last copy.
 void *lanes_block(lanes_state_t *s, int block);
 const void *lanes_block_before(const lanes_state_t *s, int block);
 
-// Where block `app` as it was looked at last is kept.
+// Returns the copy of block `app` as last looked at.
 void *lanes_looked(lanes_state_t *s);
 
-// What came in since, a block for each millisecond: what was drawn and what was true, or pilot_in_t.
+// Inputs since the last copy, a block for each millisecond: what was drawn and what was true, or pilot_in_t
+// (truth is null).
 typedef struct {
   int ms;
   const void *const *of, *const *truth;
@@ -57,14 +58,14 @@ typedef struct {
 lanes_since_t lanes_senses_since(const lanes_state_t *s);
 lanes_since_t lanes_vehicle_since(const lanes_state_t *s);
 
-// All numbers were put in anew.
+// Call when all numbers were put in anew.
 void lanes_begin_anew(lanes_state_t *s);
-// Whether the next millisecond of the senses, of the Crazyflie begins with a copy: numbers may be put in
-// anew. It does, if none is in lanes now.
+// True if the next millisecond of the senses, or of the Crazyflie, begins with a copy: flights may return to
+// lanes. none: no flight is in lanes now, which makes a copy due.
 bool lanes_senses_due(lanes_state_t *s, bool none);
 bool lanes_vehicle_due(lanes_state_t *s, bool none);
 
-// lanes_fields.cpp: how many numbers a block has, and where each lies.
+// lanes_fields.cpp: return how many numbers a block has (-1: built without AVX2), and set where each lies.
 int lanes_fields_of_one(int block, lane_field_t *to, int room, size_t *size);
 int lanes_fields_of_eight(int block, lane_field_t *to, int room, size_t *size);
 

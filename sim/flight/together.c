@@ -14,7 +14,7 @@
 
 // --- a tick ------------------------------------------------------------------------------------------------
 
-// Out of the lanes, and done.
+// Takes a flight out of the lanes and ends it.
 static void retire(group_t *g, int k, done_t status, flight_over_t over) {
   job_t *const job = g->job[k];
   flight_loop_t *const f = job->f;
@@ -29,8 +29,8 @@ static void retire(group_t *g, int k, done_t status, flight_over_t over) {
   g->sensed &= g->fly;
 }
 
-// What is true, of those whose bodies are in lanes; written where it is read. Numbers of eight lie in one way
-// everywhere.
+// Writes what is true of flights whose bodies are in lanes to where it is read: numbers of eight have the
+// same layout everywhere. Returns these flights.
 static unsigned see_truth(group_t *g) {
   lanes_truth_t truth = {.number = lanes_truth(g->woven.state)};
   const unsigned seen = abreast_sense(g->bodies, &truth) & g->fly;
@@ -46,11 +46,11 @@ static void take_motors(group_t *g) {
   woven_get_all(&g->woven, weave_block(LANES_motors), motor_N);
 }
 
-// The tick before the one from which on a flight has an order due, or is over: rounded the safe way.
+// Returns the tick before the one at which a flight has a set point due or is over; rounded the safe way.
 static long quiet_until(const flight_loop_t *f) {
   const double until_s = smaller(f->order_s, f->plan->end_s);
   return until_s < 1e6 ? (long)(until_s / LOOP_TICK_S) - 1
-                       : LONG_MAX; // s: what is later, or never, has no tick
+                       : LONG_MAX; // 1e6 s: what is later, or never, has no tick
 }
 
 static void order(group_t *g) {
@@ -116,7 +116,7 @@ static void sample(group_t *g) {
     const tick_t seen = loop_look(f);
     g->up_min[k] = f->up_min;
     g->gap_min_m[k] = f->gap_min_m;
-    if (f->order_s == 0.0) g->until = 0; // what it counts from may be another
+    if (f->order_s == 0.0) g->until = 0; // its set point may count from another ceiling
     const done_t status = record_add(job->record, &seen, job->why);
     if (status != DONE) retire(g, k, status, FLIGHT_FLIES);
   }
@@ -144,7 +144,7 @@ static void move_each(group_t *g, body_t *const bodies[LANES]) {
   woven_put_all(&g->woven, &g->woven.moved, in);
 }
 
-// Who has to move alone after all leaves its row to loop_moved().
+// Flights that had to move alone after all get their row from loop_moved().
 static void moved_alone(group_t *g, unsigned alone) {
   EACH(k, alone) {
     flight_loop_t *const f = g->job[k]->f;
@@ -155,8 +155,7 @@ static void moved_alone(group_t *g, unsigned alone) {
   }
 }
 
-// What is commanded, applied and comes of it stays in lanes: what body_command() and loop_moved() do, as
-// rows.
+// Does what body_command() and loop_moved() do, by rows: commands and what comes of them stay in lanes.
 static void move_rows(group_t *g, body_t *const bodies[LANES]) {
   enum { ROTORS_N = PILOT_MOTORS, VBAT_V };
   const double *const motor_N = woven_motors(&g->woven);
@@ -168,7 +167,7 @@ static void move_rows(group_t *g, body_t *const bodies[LANES]) {
   memcpy(to + LANES * ROTORS_N, seen.rotors_N, sizeof seen.rotors_N);
   EACH(k, moved) g->gap_min_m[k] = smaller(g->gap_min_m[k], seen.gap_m[k]);
   moved_alone(g, g->fly & ~moved);
-  if (others > 0 || !abreast_again(g->bodies, bodies)) g->until = 0; // somebody is not finite, or parted
+  if (others > 0 || !abreast_again(g->bodies, bodies)) g->until = 0; // a flight is not finite, or parted
 }
 
 static void move(group_t *g) {
@@ -203,7 +202,7 @@ static void begin(group_t *g) {
     group_begin_vehicle(g, k);
     if (g->vehicle >> k & 1) pilot = k;
   }
-  // A lane in which there is none does as another does.
+  // An empty lane repeats the flight of another.
   for (int k = 0; k < LANES; k++) {
     woven_begin_flight(&g->woven, k, g->job[g->fly >> k & 1 ? k : some]->f);
     if (pilot >= 0)

@@ -1,4 +1,4 @@
-// weave.c - the numbers of a block of one flight into a lane, and back.
+// weave.c - copies the numbers of a block of one flight into a lane and back.
 #include "flight/weave.h"
 
 #include "base/rows.h"
@@ -57,7 +57,7 @@ const weave_t *weave_block(int block) {
   return good ? &blocks[block] : NULL;
 }
 
-// In lanes a number of fewer bits is a whole one of 32, and a flag all bits or none.
+// In lanes integers of fewer bits are widened to 32, and a flag is all bits or none.
 static int32_t widened(lane_field_kind_t kind, const char *one) {
   switch (kind) {
   case LANE_FLAG: return -*(const uint8_t *)one;
@@ -77,7 +77,7 @@ static void narrow(lane_field_kind_t kind, int32_t x, char *one) {
     memcpy(one, &two, sizeof two);
 }
 
-// Where number i of a run is, of one and of the lane.
+// Address of number i of a run, in the struct of one and in the lane.
 #define ONE(i, bytes)  (one + (size_t)(i) * (bytes))
 #define LANE(i, bytes) (eight + (size_t)(i) * (bytes)*LANES)
 

@@ -1,4 +1,4 @@
-// weave.h - numbers of one flight into a lane, and back.
+// weave.h - copies numbers of one flight into a lane and back.
 #ifndef SIM_FLIGHT_WEAVE_H
 #define SIM_FLIGHT_WEAVE_H
 
@@ -6,7 +6,8 @@
 
 #define WEAVE_RUNS 256
 
-// Numbers of a kind that lie one behind the other, in the struct of one and among eight.
+// n numbers of one kind that are contiguous in the struct of one flight and in that of eight, from these
+// bytes on.
 typedef struct {
   uint32_t one, eight;
   int n;
@@ -18,21 +19,21 @@ typedef struct {
   weave_run_t run[WEAVE_RUNS];
 } weave_t;
 
-// All numbers of a block (lanes_blocks.h). Null: the structs of one and of eight have not the same numbers,
-// or the processor cannot do it, and nothing must be woven.
+// Returns all numbers of a block (lanes_blocks.h). Null: the processor cannot do it, or a struct of one and
+// that of eight differ in their numbers; then nothing may be copied.
 const weave_t *weave_block(int block);
 
-// Those that lie from..to in the struct of one.
+// Returns those that lie in bytes from..to of the struct of one.
 weave_t weave_part(int block, size_t from, size_t to);
 
-// eight: where that block lies.
+// Copy into a lane, and out of it. eight: where the block lies.
 void weave_put(const weave_t *w, void *eight, int lane, const void *one);
 void weave_get(const weave_t *w, const void *eight, int lane, void *one);
 
-// The same of all eight flights, for less than half.
+// The same for all eight flights, at less than half the cost.
 void weave_put_all(const weave_t *w, void *eight, const void *const one[LANES]);
 void weave_get_all(const weave_t *w, const void *eight, void *const one[LANES]);
-// The same of what is another than in *was, which lies as *eight does and is as that afterwards.
+// Copies only runs that differ from *was, which has the layout of *eight and is updated to it.
 void weave_get_changed(const weave_t *w, const void *eight, void *was, void *const one[LANES]);
 
 #endif

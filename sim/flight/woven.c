@@ -1,4 +1,4 @@
-// woven.c - flights in lanes: their numbers in and out, and what one of them does again alone.
+// woven.c - copies flights into lanes and out, and repeats alone the milliseconds of one that parted.
 #include "flight/woven.h"
 
 #include "crazyflie/crazyflie.h"
@@ -74,7 +74,7 @@ void woven_get_looked(woven_t *w, void *const app[LANES]) {
   weave_get_changed(&w->looked, lanes_block(w->state, LANES_app), lanes_looked(w->state), app);
 }
 
-// What it remembers does not change but in the place that it writes anew.
+// Past distances are taken from now: repeating a millisecond writes the same places again.
 static void get_range_before(woven_t *w, int k, range_t *range) {
   woven_get(w, LANES_range, k, range);
   get_part_before(w, &w->range_begin, k, range);
@@ -165,23 +165,22 @@ void woven_close(woven_t *w) {
   w->state = NULL;
 }
 
-// --- somebody between sensors and pilot --------------------------------------------------------------------
+// --- vehicles out of lanes, and back -----------------------------------------------------------------------
 
 void woven_vehicle_home(woven_t *w, int k, flight_loop_t *f) {
   woven_end_vehicle(w, k, f->pilot->vehicle);
   woven_get(w, LANES_motors, k, f->motor_N);
 }
 
-// Its lane flew on without it, and what was looked at there is no longer what the vehicle has: it is
-// remembered as the vehicle has it. Else what becomes in the first millisecond just what the lane had is not
-// told.
+// The lane flew on without the vehicle, so what was last looked at there is replaced by what the vehicle has.
+// Otherwise a number that in the first millisecond becomes what the lane had would not count as changed.
 void woven_vehicle_back(woven_t *w, int k, flight_loop_t *f) {
   woven_begin_vehicle(w, k, f->pilot->vehicle);
   weave_put(&w->looked, lanes_looked(w->state), k, &f->pilot->vehicle->app);
   put_motors(w, k, f);
 }
 
-// --- who parted, alone -------------------------------------------------------------------------------------
+// --- flights that parted, alone ----------------------------------------------------------------------------
 
 void woven_sense_alone(woven_t *w, int k, flight_loop_t *f) {
   const lanes_since_t since = lanes_senses_since(w->state);
@@ -201,7 +200,7 @@ void woven_sense_alone(woven_t *w, int k, flight_loop_t *f) {
 void woven_pilot_alone(woven_t *w, int k, flight_loop_t *f) {
   crazyflie_t *const c = f->pilot->vehicle;
   all_of_vehicle(w, get_before, k, c);
-  woven_get(w, LANES_app, k, &c->app); // parameters are those of now
+  woven_get(w, LANES_app, k, &c->app); // parameters as they are now
   get_part_before(w, &w->now, k, &c->app);
   const lanes_since_t since = lanes_vehicle_since(w->state);
   for (int ms = 0; ms < since.ms; ms++) {
