@@ -10,7 +10,7 @@ namespace {
 
 constexpr double STEP_S = 1e-3;
 constexpr int CYCLE = BOUND_CYCLE_MS;
-constexpr double SPREAD = 3.0; // so many sd of the command are what the motors have left
+constexpr double SPREAD = 3.0; // this many sd of the command fit into what the motors have left
 constexpr int STATES = 4;      // z, v, a, d
 
 using Eigen::MatrixXd;
@@ -54,8 +54,9 @@ plant discrete(const bound_plant_t &p) {
   return d;
 }
 
-// --- what can be known ------------------------------------------------------------------------------------
+// --- the filter -------------------------------------------------------------------------------------------
 
+// Updates P by a measurement of h x with this sd.
 void take(square &P, const Eigen::Matrix<double, 1, STATES> &h, double sd) {
   if (!std::isfinite(sd)) return;
   const column Ph = P * h.transpose();
@@ -72,12 +73,12 @@ public:
     height << 1.0, 0.0, 0.0, 0.0;
   }
 
-  // Covariance of the state at each ms of the cycle, after all that has come until then.
+  // Returns the covariance of the state at each ms of the cycle, given all samples that have arrived by then.
   std::array<square, CYCLE + 1> over_cycle() const {
     const std::array<square, CYCLE> settled = at_once();
     std::array<square, CYCLE + 1> known;
     for (int t = 0; t <= CYCLE; t++) {
-      const int from = t + CYCLE - std::max(p.down.age_ms, p.up.age_ms); // all from until then has come
+      const int from = t + CYCLE - std::max(p.down.age_ms, p.up.age_ms); // up to it all samples are known
       square P = settled[static_cast<size_t>(from % CYCLE)];
       for (int s = from + 1; s <= t + CYCLE; s++) {
         P = d.F * P * d.F.transpose() + d.W;
@@ -93,14 +94,14 @@ private:
   const plant &d;
   Eigen::Matrix<double, 1, STATES> force, height;
 
-  // What was measured in millisecond s and has come by the millisecond `now`.
+  // Takes what was measured in millisecond s and has arrived by the millisecond `now`.
   void measure(square &P, int s, int now) const {
     take(P, force, p.acc_mps2);
     for (const bound_range_t &r : {p.down, p.up})
       if (s % r.period_ms == 0 && s + r.age_ms <= now) take(P, height, r.sd_m);
   }
 
-  // The same if every sample came at once, once the cycle repeats itself.
+  // Returns the same if every sample arrived at once, when the cycle has settled.
   std::array<square, CYCLE> at_once() const {
     const double d_mps2 = p.force.gust_mps2 > 0.0 ? p.force.gust_mps2 : p.force.walk_mps2;
     square P = square::Zero();
@@ -116,10 +117,9 @@ private:
   }
 };
 
-// --- what can be done about it
-// ------------------------------------------------------------------------------
+// --- the feedback -----------------------------------------------------------------------------------------
 
-// Least sum of x' Q x + weight u^2 for x' = A x + B u, by doubling.
+// Returns the matrix of the least sum of x^T Q x + weight u^2 along x[t+1] = A x[t] + B u[t], by doubling.
 MatrixXd cost_to_go(MatrixXd A, const MatrixXd &B, const MatrixXd &Q, double weight) {
   const auto one = MatrixXd::Identity(A.rows(), A.cols());
   MatrixXd G = B * B.transpose() / weight, H = Q;
@@ -135,7 +135,7 @@ MatrixXd cost_to_go(MatrixXd A, const MatrixXd &B, const MatrixXd &Q, double wei
   return H;
 }
 
-// Sum of x' Q x along x' = C x.
+// Returns the matrix of the sum of x^T Q x along x[t+1] = C x[t].
 MatrixXd sum_along(MatrixXd C, MatrixXd Q) {
   for (int i = 0; i < 40; i++) {
     const MatrixXd more = C.transpose() * Q * C;
@@ -146,7 +146,7 @@ MatrixXd sum_along(MatrixXd C, MatrixXd Q) {
   return Q;
 }
 
-// The state with the commands on their way; the input is the command beside what cancels the force.
+// The state with the commands still under way. The input is the command without what cancels the force.
 struct loop {
   MatrixXd A, B;
 };
@@ -168,7 +168,7 @@ loop with_delay(const bound_plant_t &p, const plant &d) {
 
 using cycle_t = std::array<square, CYCLE + 1>;
 
-// Mean of x' M x of what is estimated: the sum that every surprise of the filter starts.
+// Returns the mean of x^T M x of the estimated state. sum: sum_along() of M, which each innovation adds.
 double mean_of(const MatrixXd &sum, const plant &d, const cycle_t &known) {
   double mean = 0.0;
   for (size_t t = 0; t < CYCLE; t++) {
@@ -196,7 +196,7 @@ bound_t bound_of(const bound_plant_t *p) {
   const plant d = discrete(*p);
   const loop l = with_delay(*p, d);
   const cycle_t known = knowledge(*p, d).over_cycle();
-  double low = std::log(1e-14), high = std::log(1e-2); // of the weight
+  double low = std::log(1e-14), high = std::log(1e-2); // log of the weight
   for (int i = 0; i < 30; i++) {
     const double mid = 0.5 * (low + high);
     const bound_t b = with_weight(l, d, known, std::exp(mid));

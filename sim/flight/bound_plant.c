@@ -4,21 +4,21 @@
 #include "base/constants.h"
 #include <math.h>
 
-#define STEP_M 1e-5 // of the curve's slope
+#define STEP_M 1e-5 // for the curve's slope
 
 static double ratio_at(const model_t *model, double gap_m) {
   const fx_place_t place = {gap_m, HUGE_VAL, model->rotor_radius_m};
   return model_thrust_ratio(model, &place);
 }
 
-// Of a sample before the filter: it is white there.
+// Returns the sd before the filter, where the noise is white.
 static double before_filter(double filtered) {
   imu_t imu;
   imu_init(&imu);
   return filtered / imu.acc.gain;
 }
 
-// Even within half a unit of the last digit.
+// Adds rounding to whole millimetres: uniform within half of one.
 static double with_rounding(double sd_m, double rounding) {
   return rounding > 0.5 ? hypot(sd_m, 1e-3 / sqrt(12.0)) : sd_m;
 }

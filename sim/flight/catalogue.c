@@ -1,4 +1,4 @@
-// catalogue.c - what there is to fly, for people.
+// catalogue.c - prints what there is to fly, for people.
 #include "flight/catalogue.h"
 
 #include "crazyflie/sections.h"
@@ -78,7 +78,7 @@ static void tell_numbers(const fx_param_t *param, int n) {
            fx_is_number(&param[i]) ? "" : param[i].unit);
 }
 
-// A bar would end the cell.
+// Escapes bars, which would end the cell.
 static void tell_law(const char *law) {
   for (; *law; law++) printf(*law == '|' ? "\\%c" : "%c", *law);
 }

@@ -1,4 +1,4 @@
-// catalogue.h - what there is to fly, for people: on standard output.
+// catalogue.h - prints what there is to fly to standard output, for people.
 #ifndef SIM_FLIGHT_CATALOGUE_H
 #define SIM_FLIGHT_CATALOGUE_H
 

@@ -1,10 +1,10 @@
-// drawn.c - what one flight's vehicle, sensors and air are.
+// drawn.c - random deviations of one flight's vehicle, sensors and air.
 #include "flight/drawn.h"
 
 #include <math.h>
 #include <string.h>
 
-#define STREAM 0x5851f42d4c957f2du // beside the seed: neither the sensors' numbers nor the air's
+#define STREAM 0x5851f42d4c957f2du // xor with the seed: another stream than the sensors' and the air's
 
 enum { GUST = 3, GUST_TAU }; // parameters of the effect `wind`
 
@@ -47,7 +47,7 @@ static double within(random_t *r, double half) {
   return half * random_uniform(r, -1.0, 1.0);
 }
 
-// A new row goes to the end: it must not move what seeds have drawn.
+// A new row goes to the end, so that existing seeds draw what they drew before.
 static drawn_t draw(const vary_t *v, random_t *r) {
   drawn_t d = {.gust_tau_s = v->gust_tau_s};
   d.gust_mps2 = between(r, v->gust_min_mps2, v->gust_max_mps2);

@@ -1,8 +1,9 @@
-// drawn.h - what one flight's vehicle, sensors and air are: what a level of noise lets differ from flight to
-// flight (`vary`, sense/noise.h), drawn from the flight's seed. The controller is told none of it.
+// drawn.h - random deviations of one flight's vehicle, sensors and air: what a level of noise lets differ
+// from flight to flight (`vary`, sense/noise.h), drawn from the flight's seed. The controller is told none of
+// them.
 //
-// Each number is drawn always, whatever its width, and from a stream of its own: a row that is changed moves
-// no other row, and the noise of the sensors is that of the same seed without draws.
+// All numbers are drawn in every flight, whatever their width, from a random stream that nothing else uses.
+// So a changed row moves no other row, and the sensors' noise is that of the same seed without draws.
 #ifndef SIM_FLIGHT_DRAWN_H
 #define SIM_FLIGHT_DRAWN_H
 
@@ -12,36 +13,36 @@
 #include <stdint.h>
 
 typedef struct {
-  double gust_mps2, gust_tau_s; // sd of the force over the mass, each axis
-  // Shares by which it is more (or less) than the vehicle file says; rotor: of rotor_number (1..4) besides.
+  double gust_mps2, gust_tau_s; // sd of the gusts' force over the mass, each axis; correlation time
+  // Relative deviations from the vehicle file; rotor: additional, of the thrust of rotor_number (1..4) alone.
   double mass, thrust, rotor, rotor_number, lag;
-  double delay_s; // of commands, besides
+  double delay_s; // of commands, added to the vehicle's
   d3_t acc_bias_b_mps2;
   double up_scale, up_offset_m, down_scale, down_offset_m;
-  double curve_a, curve_b; // shares: of what the ceiling adds, and of how fast that falls
-  double top_m;            // the body's top, from where the vehicle file has it
+  double curve_a, curve_b; // relative: what the ceiling adds; how fast that falls with distance
+  double top_m;            // height of the body's top, relative to the vehicle file
   double mount_x_rad, mount_y_rad;
 } drawn_t;
 
 typedef struct {
   const char *name; // key in a flight's JSON
   size_t offset;    // of the number in drawn_t
-  bool which;       // it says of which, not how much
+  bool which;       // an index (rotor_number), not an amount
 } drawn_field_t;
 
 extern const drawn_field_t drawn_fields[];
 extern const int drawn_field_count;
 
-// FAILED: no memory.
+// Draws the deviations of this seed. FAILED: no memory.
 MUST_CHECK done_t drawn_of(const vary_t *vary, uint64_t seed, drawn_t *drawn, why_t *why);
 
 double drawn_get(const drawn_t *drawn, const drawn_field_t *field);
 
-// Adds it to what the level says of the sensors.
+// Adds the sensors' deviations to the level's errors.
 void drawn_sense(const drawn_t *drawn, noise_t *noise);
 
-// Makes a vehicle file's model this flight's. A wind that has gusts keeps its own. BAD_INPUT: so many effects
-// that there is no room for the gusts.
+// Turns a vehicle file's model into this flight's. An effect `wind` that has gusts keeps its own. BAD_INPUT:
+// so many effects that there is no room for the gusts.
 MUST_CHECK done_t drawn_vehicle(const drawn_t *drawn, model_t *model, why_t *why);
 
 #endif

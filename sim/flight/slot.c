@@ -13,11 +13,10 @@
 #define HOVER_S       15.0
 #define STEPS         20
 #define MARKER_DOWN_M 0.003 // below the propellers
-#define MOVED_M       0.002 // the motors shake it off its place
+#define MOVED_M       0.002 // farther from its place: the motors shake it
 
-// What was measured of the real flights, in the order of labels.csv. The take-off's trajectory lasts height
-// over speed, 0.8 m at 0.1 and at 0.5 m/s: tracks of flights with the same delay of 15 s are that much longer
-// or shorter.
+// Measured on the real flights, in the order of labels.csv. The take-off's trajectory lasts height over
+// speed, 0.8 m at 0.1 or 0.5 m/s: tracks of flights with the same delay of 15 s differ in length by as much.
 static const struct {
   const char *file;
   double tilt_deg[2], take_off_s;
@@ -47,9 +46,10 @@ static done_t add_effect(model_t *model, const char *spec, why_t *why) {
   return model_add_fx(model, &use, why);
 }
 
-// Flights of one day and set point, over the open deck or 86 mm and more under a plate, lift off 9 % (5
-// flights), 14 % (6) and 8 % (4) apart; without this the simulated ones 2 to 3 %. What a gram does to the
-// lift-off makes that roughly 3 % of weight over thrust (battery, propellers).
+// Varies the weight. Real flights of one day and set point, over the open deck or 86 mm and more under a
+// plate, differ in lift-off by 9 % (5 flights), 14 % (6) and 8 % (4), simulated ones by 2 to 3 % without
+// this. From the effect of a gram on the lift-off, that is roughly 3 % of weight over thrust (battery,
+// propellers).
 static done_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
   random_t *const random = random_open(seed);
   if (!random) return error_failed(why, "out of memory");
@@ -58,7 +58,7 @@ static done_t spread_weight(model_t *model, uint64_t seed, why_t *why) {
   return DONE;
 }
 
-// To rise_m above rest as the high-level commander goes there, in steps, and a hover.
+// Plans the high-level commander's way to rise_m above rest, in steps, and a hover.
 static void plan_way(setup_t *setup, double rise_m, double take_off_s) {
   plan_t *const plan = &setup->plan;
   setup->plan.take_off_s = SLOT_TAKEOFF_S;
@@ -81,7 +81,7 @@ done_t slot_setup(setup_t *setup, uint64_t seed, bool ceiling, double rise_m, wh
   if (ceiling) TRY(add_effect(&setup->model, SLOT_CEILING, why));
   TRY(add_effect(&setup->model, SLOT_GROUND, why));
   setup->stock_pid.power = setup->air_garage.pid.power = stock_power_2022();
-  // Its heights are those of the marker, as is its position; here that is 0 at rest.
+  // The air garage's heights are those of the marker, as is its position, which here is 0 at rest.
   setup->air_garage.ceiling_m = SLOT_REST_M + MARKER_DOWN_M;
   setup->air_garage.ground_m = MARKER_DOWN_M - rest_m;
   const unsigned k = (unsigned)(seed % SLOT_FLIGHTS);
@@ -168,7 +168,7 @@ done_t slot_judge_flight(const flown_t *flown, const model_t *model, slot_seen_t
   const record_t *record = &flown->record;
   slot_point_t *const point = malloc(sizeof *point * (size_t)(record->n > 0 ? record->n : 1));
   if (!point) return error_failed(why, "out of memory");
-  const double ceiling_m = model->frame.rotor_above_feet_m + SLOT_REST_M; // also where there is none
+  const double ceiling_m = model->frame.rotor_above_feet_m + SLOT_REST_M; // also over the open deck
   for (int i = 0; i < record->n; i++)
     point[i] = (slot_point_t){record->sample[i].t_s, ceiling_m - record->sample[i].z_m};
   const done_t status = slot_judge(point, record->n, SLOT_TAKEOFF_S, seen, why);

@@ -27,7 +27,7 @@ static void tally_add(tally_t *t, int like, const slot_seen_t *seen) {
     m->captured_as[like]++;
     t->median_m[m->captured++] = seen->median_m;
   } else
-    m->free_m = fmin(m->free_m, seen->closest_m); // a NaN gives way
+    m->free_m = fmin(m->free_m, seen->closest_m); // fmin ignores NaN
 }
 
 static void tally_close(tally_t *t) {
@@ -51,9 +51,9 @@ static done_t make(const slot_case_t *c, int seed, setup_t *setup, why_t *why) {
   model_t file;
   TRY(slot_setup(setup, (uint64_t)seed, c->ceiling, c->rise_m, why));
   TRY(slot_vehicle(&file, why));
-  if (c->mass_kg > 0.0) setup->model.mass_kg *= c->mass_kg / file.mass_kg; // the spread is kept
+  if (c->mass_kg > 0.0) setup->model.mass_kg *= c->mass_kg / file.mass_kg; // keeps the random deviation
   setup->kind = c->kind;
-  setup->plan.integrate = INTEGRATE_RK4; // a tenth of the time; it is checked elsewhere
+  setup->plan.integrate = INTEGRATE_RK4; // takes a tenth of the time; checked elsewhere
   if (!c->effect) return DONE;
   fx_use_t use;
   TRY(effect_parse(c->effect, &use, why));

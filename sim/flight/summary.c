@@ -1,4 +1,4 @@
-// summary.c - what many flights of one command came to: adding, joining, quantiles.
+// summary.c - statistics of many flights of one command: adding, joining, quantiles.
 #include "flight/summary.h"
 
 #include <math.h>
@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LOWEST (-10) // octave: what is nearer to zero than 2^-10 counts as zero
+#define LOWEST (-10) // octave: numbers nearer to zero than 2^-10 count as zero
 
 // --- bins -------------------------------------------------------------------------------------------------
 
-// 0: about zero; above: 1 from 2^-10 on, SUMMARY_FINE to an octave.
+// Returns the bin of x > 0, counted from zero: 0 is about zero, 1 begins at 2^-10, SUMMARY_FINE to an octave.
 static int bin_above(double x) {
   int octave; // x = share 2^octave, share from 0.5 to 1
   const double share = frexp(x, &octave);
@@ -49,7 +49,7 @@ double summary_mean(const measure_t *m) {
 
 // --- seeds ------------------------------------------------------------------------------------------------
 
-// Where these seeds go among those that are there; -1: some are there already.
+// Returns where these seeds go among those that are there; -1: some are there already.
 static int place_of(const summary_t *s, seeds_t new) {
   int at = 0;
   while (at < s->n_seeds && s->seeds[at].to < new.from) at++;
@@ -81,7 +81,7 @@ static done_t seeds_add(summary_t *s, seeds_t new, why_t *why) {
 
 // --- measures ---------------------------------------------------------------------------------------------
 
-// The one of this name; made where it is not there. A null pointer: no memory.
+// Returns the measure of this name, which is made if it is new. A null pointer: no memory.
 static measure_t *measure_of(summary_t *s, const char *name) {
   int at = 0;
   while (at < s->n_measure && strcmp(s->measure[at].name, name) < 0) at++;

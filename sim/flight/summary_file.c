@@ -19,7 +19,7 @@ static void add_pair(cJSON *to, double first, double second) {
   cJSON_AddItemToArray(to, cJSON_CreateDoubleArray((const double[]){first, second}, 2));
 }
 
-// Least and most are of doubles, whose 17 digits come back as they were; the sum may need more than 53 bits.
+// Least and most are doubles, which 17 digits restore; the sum is text, as it may need more than 53 bits.
 static cJSON *json_of(const measure_t *m) {
   char sum[24];
   cJSON *const o = cJSON_CreateObject();
@@ -75,7 +75,7 @@ void summary_print(const summary_t *s, FILE *out) {
 
 // --- reading ----------------------------------------------------------------------------------------------
 
-// Whole, from least to most.
+// True if the item is a whole number from least to most; sets *value.
 static bool whole(const cJSON *item, double least, double most, int64_t *value) {
   if (!cJSON_IsNumber(item)) return false;
   const double x = item->valuedouble;
@@ -102,7 +102,7 @@ static bool take_sum(const cJSON *item, int64_t *sum) {
          !isspace((unsigned char)item->valuestring[0]);
 }
 
-// A sum of so many numbers lies between so often the least and so often the most, each rounded to a step.
+// The sum must lie between `flights` times the least and the most, each number rounded to a step.
 static bool adds_up(const measure_t *m) {
   const double of = (double)m->flights, room = 0.5 * of + 1.0;
   return m->least <= m->most && fabs(m->least) <= SUMMARY_LIMIT && fabs(m->most) <= SUMMARY_LIMIT &&
@@ -169,7 +169,7 @@ static bool take_all(const cJSON *o, summary_t *s) {
 }
 
 done_t summary_read(summary_t *s, const char *line, why_t *why) {
-  cJSON *const o = cJSON_ParseWithOpts(line, NULL, true); // nothing stands behind it
+  cJSON *const o = cJSON_ParseWithOpts(line, NULL, true); // nothing may follow
   const cJSON *const cell = cJSON_GetObjectItemCaseSensitive(o, "cell"), *const by =
                                                                              cJSON_GetObjectItemCaseSensitive(
                                                                                  o, "by");

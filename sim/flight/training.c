@@ -1,4 +1,4 @@
-// training.c - what a flight could teach.
+// training.c - a flight's training data.
 #include "flight/training.h"
 
 #include "flight/learn.h"

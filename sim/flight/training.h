@@ -1,4 +1,4 @@
-// training.h - what a flight could teach: distance and measured thrust ratio, as the learner on board sees
+// training.h - a flight's training data: distance and measured thrust ratio, as the learner on board sees
 // them.
 #ifndef SIM_FLIGHT_TRAINING_H
 #define SIM_FLIGHT_TRAINING_H
@@ -7,11 +7,11 @@
 #include "flight/setup.h"
 
 typedef struct {
-  double t_s, zc_m, y;
+  double t_s, zc_m, y; // zc_m: distance to the ceiling; y: thrust ratio
 } training_t;
 
-// The samples of the record that may teach by the rules of setup->flight, up to far_m. *training has room for
-// record->n; returns how many.
+// Selects the record's samples that the rules of setup->flight let the learner use, up to far_m. *training
+// has room for record->n; returns how many.
 int training_of(const record_t *record, const setup_t *setup, double far_m, training_t *training);
 
 // How a curve differs from the plant's over near_m..far_m in 1 mm steps.
