@@ -23,7 +23,7 @@ static body_start_t start_of(const flight_loop_t *f) {
     start.held = plan->held_s > 0.0;
     return start;
   }
-  // On the ground it lies as deep as its springs need to carry what the rotors do not.
+  // On the ground it lies so deep that its springs carry what the rotors do not.
   const double each_N = plan->start_thrust_N / ROTORS;
   const double left_mps2 = larger(0.0, G_MPS2 - plan->start_thrust_N / f->model->mass_kg);
   const double z_m = plan->start_z_m > 0.0 ? plan->start_z_m : -left_mps2 / (TOUCH_POINTS * TOUCH_SPRING);
@@ -31,7 +31,7 @@ static body_start_t start_of(const flight_loop_t *f) {
       .pos_w_m = {0.0, 0.0, z_m}, .thrust_N = {each_N, each_N, each_N, each_N}, .vertical_only = true};
 }
 
-// What the file's vehicle and the level's sensors are in this flight.
+// Applies this flight's random deviations to the vehicle and to the level's sensors.
 static done_t draw(flight_loop_t *f, const model_t *model, drawn_t *drawn, why_t *why) {
   f->noise = f->plan->noise;
   f->own = f->plan->vertical_only ? model_point(model) : *model;

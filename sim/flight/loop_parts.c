@@ -69,15 +69,15 @@ static void sense_vertical(flight_loop_t *f, const truth_t *truth) {
       (ekf_out_t){.pos_w_m = f->in.pos_w_m, .vel_w_mps = f->in.vel_w_mps, .q_wb = f->in.q_wb};
 }
 
-// When another is due at the earliest, unless the pilot thinks the ceiling elsewhere meanwhile.
+// Returns when the next set point is due, unless the pilot's estimate of the ceiling changes before.
 static double next_order_s(const flight_loop_t *f, double t_s) {
   const plan_t *plan = f->plan;
   const double way_s = f->way + 1 < plan->n_way ? plan->way[f->way + 1].at_s - 1e-9 : HUGE_VAL;
   return t_s >= plan->take_off_s ? way_s : smaller(way_s, plan->take_off_s);
 }
 
-// The estimator's zero is the height at rest; the plan's heights are of the rotors' plane. Whether it is
-// another order.
+// Updates the set point; true if it changed. The estimator's zero is the height at rest, the plan's heights
+// are of the rotors' plane.
 static bool order(flight_loop_t *f, double t_s) {
   const plan_t *plan = f->plan;
   if (t_s < f->order_s) return false;
@@ -136,7 +136,7 @@ tick_t loop_look(flight_loop_t *f) {
   return tick;
 }
 
-// What the next tick knows of this one.
+// Keeps what the next tick knows of this one.
 void loop_moved(flight_loop_t *f, double rotors_N, double vbat_V, double gap_m) {
   for (int i = 0; i < PILOT_MOTORS; i++) f->in.applied_N[i] = f->body.command_N[i];
   f->in.rotors_N = rotors_N;

@@ -23,7 +23,7 @@ static double of(const cJSON *o, const char *key) {
   return cJSON_IsNumber(item) ? item->valuedouble : (double)NAN;
 }
 
-// What a flight came to: the extremes over its segments.
+// Adds the extremes over the flight's segments to its JSON, and writes its line of text.
 static void sum_up(cJSON *json, uint64_t seed, line_t *line) {
   double gap_mm = (double)NAN, tilt_deg = (double)NAN;
   const cJSON *s;
@@ -44,7 +44,7 @@ static void sum_up(cJSON *json, uint64_t seed, line_t *line) {
            line->finite ? "finite" : "not-finite");
 }
 
-// The command that flies this flight alone, whatever the work was cut into.
+// Adds the command that flies this flight alone, however the work was divided.
 static void add_made(const many_t *m, const result_t *result, uint64_t seed) {
   char number[24];
   made_t made = *m->made;
@@ -89,7 +89,7 @@ static done_t take(const many_t *m, const line_t *line, uint64_t done, why_t *wh
   return m->summary ? summary_add(m->summary, m->from + done - 1, line->result, why) : DONE;
 }
 
-// Flights that are flown side by side: no more than leave every processor some.
+// Returns how many flights are flown side by side: few enough that every processor gets some.
 static int side_by_side(long n) {
 #ifdef _OPENMP
   const long each = (n + omp_get_max_threads() - 1) / omp_get_max_threads();
@@ -110,10 +110,10 @@ static void fly_one(void *self, int i) {
   g->line[i] = fly(g->m, g->from + (uint64_t)i);
 }
 
-// The first failure, in the order of the seeds, ends what is written.
+// Nothing is written from the first failure on, in the order of the seeds.
 done_t many_fly(const many_t *m, why_t *why) {
   const long n = (long)(m->to - m->from) + 1;
-  done_t status = DONE; // touched in the ordered part alone; so is the count
+  done_t status = DONE; // changed only in the ordered part, as is the count
   const int side = side_by_side(n);
   *m->not_finite = 0;
 #pragma omp parallel for ordered schedule(dynamic, 1)

@@ -1,4 +1,4 @@
-// plan.h - what is flown: set points over time, where it starts, and when the flight is over.
+// plan.h - what a flight flies: set points over time, its start and its end.
 #ifndef SIM_FLIGHT_PLAN_H
 #define SIM_FLIGHT_PLAN_H
 
@@ -15,8 +15,8 @@ typedef struct {
   double at_s, setpoint_m;
 } waypoint_t;
 
-// Stands between sensors and pilot, at every call: may edit what the pilot gets (nothing of it lasts
-// until the next call), and look at the truth.
+// Called between sensors and pilot, at every call of the pilot. It may edit what the pilot gets, for this
+// call only, and look at the true state.
 typedef void (*loop_edit_t)(void *context, const body_t *truth, pilot_in_t *in);
 
 // How the flight is flown. The waypoints are heights of the rotors' plane; x, y and yaw are held at 0.
@@ -26,10 +26,10 @@ typedef struct {
   double end_s; // when the flight is over (flight/over.h)
   uint64_t seed;
   integrate_kind_t integrate;
-  double step_s;       // of the integrator, at most; 0: 2 ms
-  double held_s;       // something holds the vehicle where it starts until then
-  bool below_estimate; // set points count from the ceiling as the pilot thinks it (thesis C.3), if it does
-  int record_every;    // ticks for a sample; 0: as many as fill 10 ms
+  double step_s;       // longest step of the integrator; 0: 2 ms
+  double held_s;       // until then the vehicle is held where it starts
+  bool below_estimate; // set points count from the pilot's estimate of the ceiling, if any (thesis C.3)
+  int record_every;    // ticks per sample; 0: as many as make 10 ms
   double take_off_s;   // the height is controlled from here on; before, the motors are off
   loop_edit_t edit;    // null: none
   void *edit_context;
@@ -38,7 +38,7 @@ typedef struct {
   mocap_param_t mocap; // period_s > 0: the estimator has motion capture in place of range and flow
   body_start_t start;  // used if in_flight; else at rest on the floor, motors off
   bool in_flight;
-  // On the vertical axis; the vehicle is then a point, its rotors' plane.
+  // On the vertical axis; the vehicle is then a point, at its rotors' plane.
   bool vertical_only;
   double period_s; // of motion, sensors and pilot
   vertical_noise_t vertical_noise;

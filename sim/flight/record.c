@@ -11,8 +11,7 @@
 
 #define APP_LOGS_MAX 256
 
-// What the mixer of the firmware must have been given: the inverse of its plus and minus, roll and pitch
-// halved.
+// Sets what the firmware's mixer must have been given: inverts its sums, in which roll and pitch are halved.
 static void take_command(sample_t *s, double full_N) {
   const double k = 65535.0 / full_N, *f = s->motor_N;
   s->command_roll = 0.5 * k * (-f[0] - f[1] + f[2] + f[3]);
@@ -21,7 +20,7 @@ static void take_command(sample_t *s, double full_N) {
   s->command_thrust = 0.25 * k * (f[0] + f[1] + f[2] + f[3]);
 }
 
-// In place: what is copied once more takes as long.
+// Fills *s in place, because another copy would take as long.
 static void take_sample(const tick_t *t, sample_t *restrict s) {
   const body_t *b = t->body;
   const axes_t axes = axes_of(t->truth->q_wb);
@@ -95,7 +94,7 @@ static const char MORE_NAMES[] =
     "indi.m2,indi.m3,indi.m4,pm.vbat,sim.x,sim.y,sim.tilt,controller.r_roll,controller.r_pitch,"
     "controller.r_yaw,controller.cmd_roll,controller.cmd_pitch,controller.cmd_yaw,controller.cmd_thrust";
 
-// The app's logs that are no columns already.
+// True if this log of the app is not a column already.
 static bool is_new(const char *name) {
   const char *const lists[] = {NAMES, MORE_NAMES};
   const size_t size = strlen(name);
@@ -106,7 +105,7 @@ static bool is_new(const char *name) {
   return true;
 }
 
-// Which of the app's logs are columns; returns how many logs there are.
+// Sets which of the app's logs are columns; returns how many logs there are.
 static int choose(bool column[APP_LOGS_MAX]) {
   char name[32];
   int n = 0;
@@ -123,7 +122,7 @@ static void write_names(FILE *file, const record_t *r, const bool *column, int n
   fputc('\n', file);
 }
 
-// Behind a comma.
+// Writes a comma and the value.
 static void put(pen_t *pen, int places, double value) {
   pen_char(pen, ',');
   pen_fixed(pen, value, places);
@@ -192,7 +191,7 @@ static void write_sample(pen_t *pen, const sample_t *s, bool vertical_only) {
   if (!vertical_only) write_more(pen, s);
 }
 
-// Of a row of the app's logs those that are columns; null: all, and the first without a comma.
+// Writes those of a row of the app's logs that are columns; null: all, and the first without a comma.
 static void write_app(pen_t *pen, const record_t *r, int row, const bool *column, int n) {
   const float *const app = r->app + (size_t)row * (size_t)n;
   for (int k = 0; k < n; k++) {

@@ -1,11 +1,11 @@
-// replay_report.c - what came of a replay, in words.
+// replay_report.c - the result of a replay, in words.
 #include "flight/replay_report.h"
 
 #include "logs/replay.h"
 #include <math.h>
 #include <stdio.h>
 
-// What the log does not hold, and how far off that leaves the rest.
+// Prints what the log does not hold, and how far off that leaves the rest.
 static void tell_lost(const replay_t *r) {
   const long unknown = r->settling.calls + r->settled.calls;
   if (r->first_call > 1)

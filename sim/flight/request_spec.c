@@ -1,4 +1,4 @@
-// request_spec.c - what the command line asks for, from text.
+// request_spec.c - parses what the command line asks for.
 #define _POSIX_C_SOURCE 200809L // getline
 #include "flight/request_spec.h"
 
@@ -44,7 +44,7 @@ static bool is_field(const char *name) {
   return false;
 }
 
-// One of the level's numbers, as "acc.z=0.1".
+// Sets one of the level's numbers, as "acc.z=0.1".
 static done_t set_noise(noise_t *noise, const char *item, why_t *why) {
   char name[NAME_MAX] = "";
   const size_t size = strcspn(item, "=");
@@ -83,7 +83,7 @@ static done_t take_numbers(request_t *r, const char *items, why_t *why) {
   return DONE;
 }
 
-// A level of six degrees of freedom, and what is changed of it.
+// Takes a level of six degrees of freedom, and the numbers that are changed in it.
 static done_t take_noise(request_t *r, const char *spec, bool *there, why_t *why) {
   const size_t size = strcspn(spec, ":");
   char name[NAME_MAX] = "";

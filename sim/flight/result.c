@@ -21,7 +21,7 @@ void result_free(result_t *r) {
   record_free(&r->record);
 }
 
-// NaN becomes null.
+// Returns the segment as JSON; NaN becomes null.
 static cJSON *segment_of(const segment_t *s, bool tilts) {
   cJSON *o = cJSON_CreateObject();
   if (s->label[0]) cJSON_AddStringToObject(o, "label", s->label);
@@ -48,10 +48,10 @@ static void replace_number(cJSON *o, const char *key, double value) {
   cJSON_ReplaceItemInObject(o, key, cJSON_CreateNumber(value));
 }
 
-// In what the flight code flew otherwise than it ships; over several flights, in all of them together.
+// Adds to "set" the parameters that differ from what ships; over several flights, those of all of them.
 static void add_set(cJSON *json, const flown_t *flown) {
   const float *const flew = flown->record.param;
-  if (!flew) return; // another flew
+  if (!flew) return; // another controller flew
   cJSON *set = cJSON_GetObjectItem(json, "set");
   if (!set) set = cJSON_AddObjectToObject(json, "set");
   for (int i = 0; i < params_count; i++) {
@@ -77,7 +77,7 @@ static void add_totals(result_t *r, flown_t *flown, int contacts) {
   flown->record = (record_t){0};
 }
 
-// What the flight drew, where it drew anything.
+// Adds the flight's random deviations, if there are any, in place of an earlier flight's.
 static void add_drawn(cJSON *json, const drawn_t *drawn) {
   cJSON_DeleteItemFromObject(json, "drawn");
   cJSON *const all = cJSON_CreateObject();
@@ -140,7 +140,7 @@ static void cell_text(const cJSON *cell, char *text, size_t size) {
     snprintf(text, size, "-");
 }
 
-// As wide as the key and every cell of that column.
+// Returns the width of the key and every cell of that column.
 static int column_width(const cJSON *rows, const char *key) {
   size_t width = strlen(key);
   const cJSON *row;
@@ -187,7 +187,7 @@ void result_print(const cJSON *json, FILE *out) {
     fprintf(out, "%s\n", item->string);
     print_table(item, out);
   }
-  if (number(json, "realtime_factor") == 0.0) return; // nobody flew
+  if (number(json, "realtime_factor") == 0.0) return; // nothing was flown
   fprintf(out, "contacts %g, %s, %.0f x real time\n", number(json, "contacts"),
           cJSON_IsTrue(cJSON_GetObjectItem(json, "finite")) ? "finite" : "NOT FINITE",
           number(json, "realtime_factor"));
@@ -243,7 +243,7 @@ cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed) {
     cJSON_AddNumberToObject(flight, "seed", (double)(first_seed + (uint64_t)i));
     cJSON_AddItemToArray(flights, flight);
   }
-  const cJSON *const set = cJSON_GetObjectItem(json[0], "set"); // the seeds differ in nothing else
+  const cJSON *const set = cJSON_GetObjectItem(json[0], "set"); // the same for all seeds
   if (set) cJSON_AddItemToObject(all, "set", cJSON_Duplicate(set, true));
   cJSON_AddItemToObject(all, "segments", segments_over_seeds(json, n));
   cJSON_AddNumberToObject(all, "contacts", contacts);

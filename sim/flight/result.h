@@ -8,13 +8,13 @@
 
 typedef struct {
   // "segments": [...], "contacts", "finite", "realtime_factor", and what a scenario adds; "set": {...}, the
-  // parameters in which the flight code flew otherwise than it ships, as --set takes them; "drawn": {...},
-  // what the level of noise drew for this flight (flight/drawn.h), if it draws
+  // parameters that the flight code flew with and that differ from what ships, as --set takes them; "drawn":
+  // {...}, this flight's random deviations (flight/drawn.h), if there are any
   cJSON *json;
   record_t record; // of the flight that --log writes
 } result_t;
 
-// An empty result. FAILED: no memory.
+// Makes an empty result. FAILED: no memory.
 MUST_CHECK done_t result_init(result_t *r, why_t *why);
 void result_free(result_t *r);
 
@@ -25,24 +25,24 @@ void result_add_flight(result_t *r, flown_t *flown);
 // Adds a table "learned" with the weights, as parameters to type in, and the array "weights".
 void result_add_weights(result_t *r, const rbf_weights_t *weights);
 
-// Adds one segment alone, and the flight's totals: for scenarios of many flights with one interesting segment
-// each.
+// Adds one segment alone with its contacts, and the flight's other totals: for scenarios of many flights with
+// one interesting segment each.
 void result_add_segment(result_t *r, flown_t *flown, int segment, const char *label);
 
-// A row of a table "name"; created when new. Fill it with cJSON_AddNumberToObject.
+// Adds a row to a table, which is created when new, and returns it. Fill it with cJSON_AddNumberToObject.
 cJSON *result_add_row(result_t *r, const char *table);
 
-// Every table, as aligned text, and the totals if somebody flew.
+// Prints "set", every table as aligned text, and the totals if anything was flown.
 void result_print(const cJSON *json, FILE *out);
 
-// FAILED: no memory for the text. If the file took it, the stream knows.
+// Writes the JSON. FAILED: no memory for the text. A failure of the file shows in the stream (ferror).
 MUST_CHECK done_t result_write(const cJSON *json, FILE *file, why_t *why);
 
-// The same scenario with several seeds. "segments" becomes the mean over the flights (null where one is null;
-// contacts add up; the smallest gap is the smallest, the largest tilt the largest), "contacts" the sum,
-// "finite" false where one is not, "realtime_factor" the mean. "flights" holds each one's own with its seed.
-// What a scenario adds of its own stands there alone: what of a table may be averaged is not known here. A
-// null pointer: no memory.
+// Joins the results of one scenario with n seeds. "segments" becomes the mean over the flights (null where
+// one is null; contacts are the sum, the smallest gap the smallest, the largest tilt the largest), "contacts"
+// the sum, "finite" false where one is not, "realtime_factor" the mean. "flights" holds each flight's own
+// result with its seed. What a scenario adds is only there, because it is not known here which numbers of a
+// table may be averaged. A null pointer: no memory.
 cJSON *result_over_seeds(cJSON *const *json, int n, uint64_t first_seed);
 
 #endif

@@ -61,7 +61,7 @@ done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why) {
   setup->flight.pos.thrust_max_N = 0.6f;
   setup->flight.curve.clip = 0;
   setup->flight.gap_min_m = 0.0f;
-  setup->flight.bias.pole_radps = 0.0f; // the thesis knows none
+  setup->flight.bias.pole_radps = 0.0f; // the thesis has no bias observer
   setup->flight.learn.rls = (rls_param_t){.form = RLS_THESIS, .lambda = 0.5f, .p0 = 1.0f};
   return DONE;
 }
@@ -86,7 +86,7 @@ done_t scenario_fly(const setup_t *setup, result_t *result, why_t *why) {
   flown_t flown;
   TRY(setup_fly(setup, &flown, why));
   result_add_flight(result, &flown);
-  // So that who reads the distances need not be told.
+  // Needed to interpret the distances.
   if (isfinite(setup->model.ceiling_m))
     cJSON_AddNumberToObject(result->json, "ceiling_m", setup->model.ceiling_m);
   cJSON_AddNumberToObject(result->json, "rotor_radius_m", setup->model.rotor_radius_m);

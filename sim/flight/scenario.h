@@ -15,31 +15,31 @@ typedef struct {
 extern const scenario_t *const scenario_table[];
 extern const int scenario_count;
 
-// A null pointer where there is none of that name.
+// Returns the scenario of that name, or a null pointer.
 const scenario_t *scenario_find(const char *name);
-// The same for a person. BAD_INPUT: there is none; names the one that may be meant.
+// The same for a name that a person typed. BAD_INPUT: there is none; *why names the one that may be meant.
 MUST_CHECK done_t scenario_take(const char *name, const scenario_t **scenario, why_t *why);
 
-// The thesis's appendix A: 32 g under a ceiling at 0.5 m, ceiling term not clipped, everything measured
-// exactly. BAD_INPUT: a fault of the build, not of the user.
+// Sets up the thesis's appendix A: 32 g under a ceiling at 0.5 m, ceiling term not clipped, everything
+// measured exactly. BAD_INPUT: a fault of the build, not of the user.
 MUST_CHECK done_t scenario_appendix_a_setup(setup_t *setup, fly_kind_t kind, why_t *why);
 
-// Its learning flight with noise N1, and what is asked for over it. BAD_INPUT: as setup_apply and
+// Sets up its learning flight with noise N1 and applies the request. BAD_INPUT: as setup_apply and
 // scenario_check_ladder.
 MUST_CHECK done_t scenario_learning_setup(setup_t *setup, const request_t *request, why_t *why);
 
-// The thesis's flights in six degrees of freedom, and what is asked for over them; the way up is the
-// caller's. BAD_INPUT: as setup_apply and scenario_check_ladder.
+// Sets up the thesis's flights in six degrees of freedom and applies the request; the caller adds the set
+// points. BAD_INPUT: as setup_apply and scenario_check_ladder.
 MUST_CHECK done_t scenario_thesis_setup(setup_t *setup, fly_kind_t kind, const request_t *request,
                                         why_t *why);
 
 // Flies and adds the flight. BAD_INPUT, FAILED: as setup_fly.
 MUST_CHECK done_t scenario_fly(const setup_t *setup, result_t *result, why_t *why);
 
-// BAD_INPUT: no ceiling to climb to, or so low that the learning ladder would begin in the ground.
+// BAD_INPUT: no ceiling within 100 m, or one so low that the learning ladder would begin in the ground.
 MUST_CHECK done_t scenario_check_ladder(const model_t *model, why_t *why);
 
-// BAD_INPUT: what was asked for has the ceiling's curve learn nothing. name: the scenario's.
+// BAD_INPUT: with this request no curve of the ceiling is learned (ceil.mode is not 2). name: the scenario's.
 MUST_CHECK done_t scenario_check_learns(const setup_t *setup, const char *name, why_t *why);
 
 #endif

@@ -72,7 +72,7 @@ static segment_t measure(const span_t *x) {
     out.tilt_max_rad = fmax(out.tilt_max_rad, x->s[i].tilt_rad);
   }
   out.min_gap_mm = isfinite(gap_m) ? 1e3 * gap_m : (double)NAN;
-  // A contact that lasts from the segment before is this one's too.
+  // A contact that lasts from the segment before counts here too.
   out.contacts = x->s[x->last].contacts - x->s[x->first].contacts + x->s[x->first].touching;
   return out;
 }

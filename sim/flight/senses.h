@@ -1,6 +1,6 @@
 // senses.h - one millisecond of sensors and estimator, from what is true to what the pilot gets.
 //
-// What is drawn comes first, so that one vehicle and eight at a time take the same from there.
+// Random numbers are drawn beforehand, so that from there on one vehicle and eight at a time do the same.
 #ifndef SIM_FLIGHT_SENSES_H
 #define SIM_FLIGHT_SENSES_H
 
@@ -15,7 +15,7 @@ typedef struct {
   range_t range;
   ekf_in_t seen; // the pose is only there with motion capture
   ekf_t ekf;
-  ekf_out_t estimate; // what was finished in the millisecond before
+  ekf_out_t estimate; // that was finished in the millisecond before
 } senses_t;
 
 typedef struct {
@@ -25,7 +25,7 @@ typedef struct {
   mocap_sample_t mocap;
 } senses_drawn_t;
 
-// in: sensors, estimate, and what of them is new.
+// Runs the millisecond. *in gets measurements, estimate, and which samples are new.
 void senses_take(senses_t *s, const imu_param_t *imu, const range_param_t *range, const senses_drawn_t *drawn,
                  const truth_t *truth, pilot_in_t *in);
 

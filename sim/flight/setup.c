@@ -56,8 +56,8 @@ static bool has_surface(const model_t *model) {
   return false;
 }
 
-// The vehicle's numbers; the surroundings stay the scenario's where the file does not name any. Effects that
-// the vehicle brings along wherever it flies (drag) are no surroundings.
+// Takes the vehicle's numbers. The surroundings stay the scenario's where the file does not name any; effects
+// that the vehicle brings along wherever it flies (drag) do not belong to them.
 static void take_vehicle(model_t *model, const model_t *vehicle) {
   const model_t scenario = *model;
   *model = *vehicle;
@@ -81,7 +81,7 @@ static done_t take_request(setup_t *setup, const request_t *request, why_t *why)
   for (int i = 0; i < request->n_effect; i++) TRY(model_add_fx(&setup->model, &request->effect[i], why));
   for (int i = 0; i < request->n_set; i++) {
     const param_row_t *row = request->set[i].row;
-    if (!row) continue; // the app's
+    if (!row) continue; // of the app alone
     if (params_set(flight, row, request->set[i].value) != ST_OK)
       return error_set(why, "--set %s: allowed is %g to %g", row->name, (double)row->min, (double)row->max);
     // A weight that is set is also where learning starts.
@@ -93,7 +93,7 @@ static done_t take_request(setup_t *setup, const request_t *request, why_t *why)
   return param_check_all(flight, why);
 }
 
-// On the vertical axis only what multiplies the thrust can act, and only what flies there can fly.
+// On the vertical axis only effects that multiply the thrust can act, and only indi* and pid* can fly.
 static done_t take_vertical(setup_t *setup, const request_t *request, why_t *why) {
   if (setup->kind > FLY_PID_FF)
     return error_set(why, "--controller %s: this scenario is flown on the vertical axis, by indi* or pid*",
@@ -129,7 +129,7 @@ static done_t take_propellers(setup_t *setup, why_t *why) {
   for (int k = 0; k < 2; k++) {
     double apart = map->kind == THRUST_MAP_VOLT_CUBIC ? 0.0 : HUGE_VAL;
     for (int i = 0; i < 4; i++) apart = fmax(apart, fabs(map->c[i] - known[k].volt_cubic[i]));
-    if (apart > 1e-7) continue; // the digits of the vehicle files
+    if (apart > 1e-7) continue; // the precision of the vehicle files
     memcpy(setup->stock_pid.power.volt_cubic, known[k].volt_cubic, sizeof known[k].volt_cubic);
     memcpy(setup->air_garage.pid.power.volt_cubic, known[k].volt_cubic, sizeof known[k].volt_cubic);
     return DONE;
@@ -195,9 +195,9 @@ void setup_close_ladder(setup_t *setup) {
 
 // --- who flies --------------------------------------------------------------------------------------------
 
-// The parameters of one that flies are kept with what it did, and what ships beside them: every default, but
-// for what the controller's name stands for, the curve's mode, where it learns from nothing 1 + 0, and where
-// it has learned, what it learned.
+// Keeps the parameters that were flown, and those that ship with the controller: every default, but for the
+// curve's mode, which the controller's name stands for, a flat curve (1 + 0) where it learns from nothing,
+// and what it learned where it has learned.
 static done_t keep_params(const setup_t *setup, const flight_param_t *flies, flown_t *flown, why_t *why) {
   const fly_kind_t kind = setup->kind;
   flight_param_t *const shipped = &flown->shipped;
@@ -212,7 +212,7 @@ static done_t keep_params(const setup_t *setup, const flight_param_t *flies, flo
   return DONE;
 }
 
-// What only the app knows.
+// Sets what only the app has: its own parameters, the uSD deck and its logs.
 static void prepare_app(pilot_flight_t *p, const request_t *request) {
   if (!request) return;
   for (int i = 0; i < request->n_set; i++)
@@ -226,7 +226,7 @@ static done_t fly_outer(const setup_t *setup, const flight_param_t *param, flown
   pilot_outer_t p;
   pilot_t pilot;
   plan_t plan = setup->plan;
-  plan.period_s = (double)(float)plan.period_s; // the flight code's own
+  plan.period_s = (double)(float)plan.period_s; // single precision, as in the flight code
   if (pilot_outer_init(&p, param, plan.period_s, &pilot) != DONE)
     return error_set(why, "--set indiPos.cutoff: allowed is 0, or 0.1 to 45 Hz");
   TRY(loop_fly(&plan, &setup->model, &pilot, &flown->record, &flown->outcome, why));
@@ -248,7 +248,7 @@ static done_t fly_app(const setup_t *setup, const flight_param_t *param, flown_t
     return error_failed(why, "out of memory");
   flown->weights = p.flight->outer.learn.rls.theta;
   flown->ground_weights = p.flight->ground.learn.rls.theta;
-  return keep_params(setup, &p.flight->outer.param, flown, why); // the app's own
+  return keep_params(setup, &p.flight->outer.param, flown, why); // as the app has them
 }
 
 static done_t fly_indi(const setup_t *setup, flown_t *flown, why_t *why) {
@@ -293,7 +293,7 @@ static done_t fly_pid(const setup_t *setup, flown_t *flown, why_t *why) {
   return loop_fly(&setup->plan, &setup->model, &pilot, &flown->record, &flown->outcome, why);
 }
 
-// The learning flight of thesis section 5.3, and its weights frozen.
+// Flies the learning flight of thesis section 5.3 and freezes its weights.
 static done_t learn_first(setup_t *setup, why_t *why) {
   if (!isfinite(setup->model.ceiling_m))
     return error_set(why, "--controller indi-learned: there is no ceiling here to learn from");
@@ -302,7 +302,7 @@ static done_t learn_first(setup_t *setup, why_t *why) {
   learning.plan.vertical_noise = vertical_noise_levels[1];
   setup_close_ladder(&learning);
   request_t unseen = setup->request ? *setup->request : (request_t){.seed = 0};
-  unseen.usd = NULL; // what is written is the flight that is asked for
+  unseen.usd = NULL; // the deck writes the flight that is asked for
   if (setup->request) learning.request = &unseen;
   flown_t flight = {.n_segment = 0};
   const done_t status = fly_indi(&learning, &flight, why);

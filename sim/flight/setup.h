@@ -1,5 +1,5 @@
-// setup.h - everything that one flight needs: model, controller, plan; what a person changes of it; and what
-// it was like.
+// setup.h - everything that one flight needs: model, controller, plan; what the command line changes of it;
+// and the flight's result.
 #ifndef SIM_FLIGHT_SETUP_H
 #define SIM_FLIGHT_SETUP_H
 
@@ -24,17 +24,17 @@ typedef enum {
   FLY_COUNT
 } fly_kind_t;
 
-// The name on the command line; a null pointer for what cannot be asked for.
+// The name on the command line; a null pointer for a kind that cannot be asked for.
 extern const char *const fly_name[FLY_COUNT];
 
 #define REQUEST_MAX 128
 
 struct usd_deck;
 
-// What the command line asks for, over what the scenario brings.
+// What the command line asks for; overrides what the scenario brings.
 typedef struct {
   const fly_kind_t *kind; // null: the scenario's
-  bool thesis_law;        // param_thesis() first
+  bool thesis_law;        // param_thesis() before `set`
   const model_t *vehicle; // null: the scenario's
   const noise_t *noise;   // null: the scenario's; so the next
   const vertical_noise_t *vertical_noise;
@@ -47,7 +47,7 @@ typedef struct {
   bool log;             // keeps the app's logs, in six degrees of freedom
   bool log_calls;       // with log: the app's logs of every call, and nothing else; six degrees of freedom
   bool log_500_Hz;      // six degrees of freedom: a sample every 2 ms instead of 10
-  struct usd_deck *usd; // on board, six degrees of freedom; null: none
+  struct usd_deck *usd; // deck on board, six degrees of freedom; null: none
   uint64_t seed;
   integrate_kind_t integrate;
 } request_t;
@@ -55,12 +55,12 @@ typedef struct {
 typedef struct {
   model_t model;
   flight_param_t flight;
-  rbf_weights_t learn_from; // what a learning flight starts with
-  bool floor_learned;       // flight.ground's weights are what a flight before has learned
+  rbf_weights_t learn_from; // weights that a learning flight starts with
+  bool floor_learned;       // flight.ground's weights were learned in an earlier flight
   fly_kind_t kind;
   pid_param_t pid;
   stock_pid_param_t stock_pid;
-  air_garage_param_t air_garage; // infinitely far ceiling: it gets the model's, counted from the propellers
+  air_garage_param_t air_garage; // infinitely far ceiling: the model's is used, counted from the propellers
   plan_t plan;
   const request_t *request; // parameters of the app, and whether its logs are kept; null: neither
 } setup_t;
@@ -70,22 +70,22 @@ typedef struct {
 // BAD_INPUT: a fault of the build, not of the user.
 MUST_CHECK done_t setup_thesis(setup_t *setup, fly_kind_t kind, why_t *why);
 
-// What is asked for, over the scenario's. The firmware's controllers get the propellers of the vehicle.
-// BAD_INPUT: too many effects, parameters that contradict each other, or what cannot fly, act or be logged
-// there; for the firmware's controllers parameters or propellers that they do not know.
+// Applies the request to the scenario's setup. The firmware's controllers get the propellers of the vehicle.
+// BAD_INPUT: too many effects, parameters that contradict each other, or something that cannot fly, act or be
+// logged in this scenario; for the firmware's controllers, parameters or propellers that they do not know.
 MUST_CHECK done_t setup_apply(setup_t *setup, const request_t *request, why_t *why);
 
-// The thesis's flights stay below the range sensor's floor for longer than the guard of the shipped set
-// allows: ceil.blindMax for them.
+// ceil.blindMax for the thesis's flights, which stay below the range sensor's floor for longer than the guard
+// of the shipped set allows.
 #define SETUP_BLIND_S 60.0f
 
-// Waypoints at these gaps below the ceiling, hold_s each. In six degrees of freedom after a take-off and a
-// hover at the first, and below the ceiling as the controller thinks it; who thinks of none is told where it
-// is.
+// Plans waypoints at these gaps below the ceiling, hold_s each. In six degrees of freedom the flight begins
+// with a take-off and a hover at the first, and gaps count from the controller's estimate of the ceiling; a
+// controller that has none is told where the ceiling is.
 void setup_ladder(setup_t *setup, const double *gap_m, int n, double hold_s);
 
-// That of the close flight and of the learning flight (thesis section 5.3): 20 cm, then 10 to 2 cm in steps
-// of 2 cm, 10 s each.
+// The ladder of the close flight and of the learning flight (thesis section 5.3): 20 cm, then 10 to 2 cm in
+// steps of 2 cm, 10 s each.
 void setup_close_ladder(setup_t *setup);
 
 // A flight that was flown.
@@ -97,11 +97,12 @@ typedef struct {
   int n_segment;
   // At the end of the flight, where the flight code flew.
   rbf_weights_t weights, ground_weights;
-  flight_param_t shipped; // what ships with that controller: what record.param is held against
+  flight_param_t shipped; // what ships with that controller, to compare record.param with
 } flown_t;
 
-// BAD_INPUT, FAILED: as loop_fly; a filter that the controller's rate does not allow; or FLY_INDI_LEARNED
-// where there is no ceiling to learn from. Then nothing is left to free. Else free what was flown.
+// Flies the setup. Errors as loop_fly; BAD_INPUT also for a filter that the controller's rate does not allow,
+// and for FLY_INDI_LEARNED where there is no ceiling to learn from. After an error there is nothing to free;
+// else free *flown.
 MUST_CHECK done_t setup_fly(const setup_t *setup, flown_t *flown, why_t *why);
 
 void flown_free(flown_t *flown);
