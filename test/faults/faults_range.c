@@ -102,7 +102,6 @@ enum {
 };
 #define EVER FAULTS_EVER
 static const row_t rows[] = {
-    /*18*/
     {"13 range 32.767 after a ceiling", 'B', 0.06, EVER, EVER, 32.767, 32.767, range_is, GUARD_RANGE_LOST,
      0.37, 100, NULL, NULL, 0, false, false},
     {"14 range 0 from the start", 'N', 0.06, EVER, EVER, 0, 0, range_is, GUARD_RANGE_ODD, 0.25, 100,

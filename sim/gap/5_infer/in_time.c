@@ -191,7 +191,8 @@ static void pulses_in(const look_t *l, int ch, cell_t *cell) {
                      .to = time_s(l, peak.at + rows - 1),
                      .size = c->sd * peak.whole / sqrt(p.energy),
                      .statistic = fabs(peak.largest) / peak.scatter,
-                     .explained = peak.alike};
+                     .explained = peak.alike,
+                     .is_pulse = true};
   }
 }
 

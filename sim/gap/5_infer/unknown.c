@@ -305,6 +305,62 @@ void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double
   if (to->found) weigh_ties(log, to);
 }
 
+// --- how large it is --------------------------------------------------------------------------------------
+
+static bool is_inside(const set_t *s, const model_t *m, const rows_t *r, const cell_t *c, int row) {
+  const grid_t *const g = &s->grid[r->flight[row]];
+  const double at = coordinate_of(c->along, g, m, r->point[row]);
+  if (!(at >= c->from && at <= c->to)) return false;
+  const double y_m = c->is_patch ? coordinate_of(COORDINATE_Y, g, m, r->point[row]) : 0.0;
+  return !c->is_patch || (y_m >= c->y_from_m && y_m <= c->y_to_m);
+}
+
+// Takes each flight's mean out of both.
+static void within_flights(const rows_t *r, double *x, double *v) {
+  for (int from = 0, end; from < r->n; from = end) {
+    double x_mean = 0.0, v_mean = 0.0;
+    for (end = from; end < r->n && r->flight[end] == r->flight[from]; end++)
+      x_mean += x[end], v_mean += v[end];
+    x_mean /= end - from, v_mean /= end - from;
+    for (int i = from; i < end; i++) x[i] -= x_mean, v[i] -= v_mean;
+  }
+}
+
+static void regress(const rows_t *r, const double *x, const double *v, cell_t *cell) {
+  double xx = 0.0, xv = 0.0, squares = 0.0;
+  for (int i = 0; i < r->n; i++) xx += x[i] * x[i], xv += x[i] * v[i];
+  if (!(xx > 0.0)) return; // each flight is inside, or outside: as the look found it
+  const double size = xv / xx;
+  for (int from = 0, end; from < r->n; from = end) {
+    double score = 0.0;
+    for (end = from; end < r->n && r->block[end] == r->block[from]; end++)
+      score += x[end] * (v[end] - size * x[end]);
+    squares += score * score;
+  }
+  cell->error = fmax(sqrt(squares) / xx, fabs(cell->size) / cell->statistic); // few blocks say too little
+  cell->size = size;
+}
+
+done_t unknown_measure(const set_t *s, const model_t *m, double *const residual[CHANNELS], cell_t *cell,
+                       why_t *why) {
+  if (!(cell->statistic > 0.0) || cell->along < 0 || cell->along >= COORDINATES || cell->is_pulse)
+    return DONE;
+  const rows_t *const r = set_rows(s, cell->channel);
+  lines_t v;
+  double *const x = malloc(set_most_rows(s) * sizeof(double));
+  done_t status = copy_of(s, residual, &v, why);
+  if (!x) status = error_failed(why, "out of memory");
+  if (status == DONE) {
+    if (cell->world) turn_by_heading(s, 1.0, v.r[CH_FX], v.r[CH_FY], v.r[CH_FX], v.r[CH_FY]);
+    for (int i = 0; i < r->n; i++) x[i] = is_inside(s, m, r, cell, i);
+    within_flights(r, x, v.r[cell->channel]);
+    regress(r, x, v.r[cell->channel], cell);
+  }
+  free(x);
+  lines_free(&v);
+  return status;
+}
+
 done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                       const scan_t *nominal, int n, const double misfit[CHANNELS], cell_t cell[CHANNELS],
                       why_t *why) {

@@ -73,6 +73,13 @@ typedef struct {
 void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double misfit[CHANNELS],
                    judged_t *to);
 
+// Finds the size of what lies along a coordinate or on a patch, and its error: least squares of the rows
+// inside against those outside it, beside a constant of each flight, and blocks of 2 s that are independent.
+// The looks find it by white rows, which make most of its ends: there the rows' filter, and ends that are off
+// by a part of a bin, take a third of what is crossed in half a second. FAILED: no memory.
+MUST_CHECK done_t unknown_measure(const set_t *s, const model_t *m, double *const residual[CHANNELS],
+                                  cell_t *cell, why_t *why);
+
 // Sets, by channel, what flights differ by in a residual where that is beyond its bound (as above; by n
 // nominal flights, 1 or more); elsewhere its statistic is 0. FAILED: no memory.
 MUST_CHECK done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],

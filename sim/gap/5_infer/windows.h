@@ -11,6 +11,7 @@
 
 #include "gap/2_predict/color.h"
 #include "gap/5_infer/windows_cut.h"
+#include <math.h>
 
 typedef struct {
   int channel;
@@ -18,15 +19,21 @@ typedef struct {
   const char *coordinate, *unit;
   double from, to;  // of the coordinate
   double size;      // mean of the residual inside, in the channel's unit; amplitude of a line; rms BY_FLIGHT
+  double error;     // standard error of the size (unknown_measure); 0: size over statistic
   double statistic; // held against that of nominal flights; 0: nothing could be judged
   int spreads;      // a name's misfit spreads over at least so many cells like it; 0: it may lie in one
   double explained; // what it takes from the white sum of squares
   int flights;      // BY_FLIGHT: how many have rows
   bool first, last; // no row is before `from`, beyond `to`
   bool world;       // force_x and force_y along the world's x and y: it stays where the vehicle turns
+  bool is_pulse;    // in one flight, at that time
   bool is_patch;    // from..to is along x, and this along y
   double y_from_m, y_to_m;
 } cell_t;
+
+static inline double cell_error(const cell_t *c) {
+  return c->error > 0.0 ? c->error : fabs(c->size) / c->statistic;
+}
 
 // After the channels the lateral force (those before CH_FZ) once more, in the world's axes.
 enum {

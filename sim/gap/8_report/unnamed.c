@@ -18,7 +18,7 @@ const char *report_cell(const cell_t *c, char text[REPORT_CELL]) {
   char where[REPORT_PLACE];
   const bool differs = c->along == BY_FLIGHT; // its size is a spread, and has no sign
   snprintf(text, REPORT_CELL, "%s%.3g +- %.1g %s%s in %s%s, %s", differs || c->size < 0.0 ? "" : "+", c->size,
-           fabs(c->size) / c->statistic, gap_unit[c->channel], differs ? " rms" : "", gap_channel[c->channel],
+           cell_error(c), gap_unit[c->channel], differs ? " rms" : "", gap_channel[c->channel],
            c->world ? " (the world's)" : "", report_place(c, where));
   return text;
 }

@@ -167,7 +167,7 @@ static void add_unknown(cJSON *root, const report_t *r) {
   const cell_t *const c = &d->left.cell;
   cJSON *const o = cJSON_AddObjectToObject(root, "unknown");
   add_place(o, c);
-  add(o, {.key = "size", .number = c->size}, {.key = "stderr", .number = fabs(c->size) / c->statistic});
+  add(o, {.key = "size", .number = c->size}, {.key = "stderr", .number = cell_error(c)});
   if (d->left.also.statistic > 0.0) add_place(cJSON_AddObjectToObject(o, "also"), &d->left.also);
   add_acts_as(o, &d->for_a_time);
   add_differ(o, r);

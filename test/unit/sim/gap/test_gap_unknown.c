@@ -1,6 +1,8 @@
 // test_gap_unknown.c - what of an unknown effect is told: beyond nominal flights and beyond a misfit, and
 // which of those that explain as much.
 #include "gap/5_infer/nominal_sums.h"
+#include "rig/gap_track.h"
+#include "rig/splitmix.h"
 #include "rig/test.h"
 
 #include <math.h>
@@ -146,4 +148,34 @@ TEST(gap_tells_the_bound_that_it_holds_a_cell_against) {
   CHECK(!judged.found && judged.cell.channel == CH_WX);
   // Ten quiet flights, and noise alone in one: of 552 windows the normal distribution's 4.28.
   CHECK_NEAR(judged.cell_bound, hypot(3.169 * 4.28 / sqrt(11.0), 0.12 / 0.1 * 50.0), 0.01);
+}
+
+// A push in a strip that is crossed in less than a second, blurred at its ends as the rows' filter does it,
+// in flights of which each has a constant of its own.
+TEST(gap_measures_what_lies_in_a_strip_by_the_rows_inside_and_outside) {
+  gap_track_t t;
+  lines_t l;
+  why_t why = {""};
+  if (!CHECK_OK(gap_track_make(&t, &(gap_track_job_t){.spoil = NULL}, &why))) return;
+  const rows_t *const r = &t.set.smooth;
+  cell_t cell = {CH_FZ, COORDINATE_X, "x", "m", 0.05, 0.6, .size = -0.4, .statistic = 100.0};
+  splitmix_t noise = {7};
+  int inside = 0;
+  CHECK_OK(lines_make(&l, &t.set, &why));
+  for (int i = 0; i < r->n; i++) {
+    double share = 0.0;
+    for (int k = i > 0 ? i - 1 : 0; k <= i + 1 && k < r->n; k++) {
+      const double x_m = coordinate_of(COORDINATE_X, &t.set.grid[r->flight[k]], &t.vehicle, r->point[k]);
+      share += x_m >= cell.from && x_m <= cell.to ? 1.0 / 3.0 : 0.0;
+    }
+    inside += share > 0.5;
+    l.r[CH_FZ][i] = (r->flight[i] ? 3.0 : -2.0) - share + splitmix_normal(&noise, 0.1);
+  }
+  ROW("%d of %d rows", inside, r->n);
+  CHECK(inside > 50 && inside < r->n / 2);
+  CHECK_OK(unknown_measure(&t.set, &t.vehicle, l.r, &cell, &why));
+  CHECK_NEAR(cell.size, -1.0, 0.06); // what the blur takes
+  CHECK(cell.error > 0.003 && cell.error < 0.03);
+  lines_free(&l);
+  gap_track_free(&t);
 }
