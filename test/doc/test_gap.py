@@ -12,8 +12,8 @@ class InShort(unittest.TestCase):
     def test_every_answer_has_its_words(self) -> None:
         rows = [
             ("Missing in out/v.toml: ceiling.", "ceiling"),
-            ("Missing in out/v.toml: ceiling, mass.", "ceiling, mass"),
-            ("Missing in out/v.toml: ceiling, and something that has no name.", "ceiling + unknown"),
+            ("Missing in out/v.toml: ceiling; mass or thrust_scale (more).", "ceiling; mass or thrust_scale (more)"),
+            ("Missing in out/v.toml: ceiling; and something that has no name.", "ceiling + unknown"),
             ("Something is missing in out/v.toml that cannot be named.", "no name, something unknown"),
             ("Nothing is missing in out/v.toml that these flights could show.", "nothing"),
             ("These flights cannot tell what is missing in out/v.toml.", "not told"),

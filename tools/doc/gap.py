@@ -38,7 +38,7 @@ def example() -> None:
 def answer(said: str) -> str:
     """The workflow's answer in a few words."""
     if missing := re.search(r"^Missing.*: (.*)\.$", said, re.M):
-        return missing[1].replace(", and something that has no name", " + unknown")
+        return missing[1].replace("; and something that has no name", " + unknown")
     if re.search("^Something", said, re.M):
         return "no name, something unknown"
     return "nothing" if re.search("^Nothing", said, re.M) else "not told"

@@ -53,7 +53,7 @@ static void advise_place(report_t *r, const cell_t *cell) {
 }
 
 // Says what tells a name (the largest share first) from its rivals; else what shows the unexplained residual
-// best; else what shows an effect that these flights could not.
+// best; else what shows an effect that these flights, or logs with so few rows, could not.
 static void advise_fly(report_t *r) {
   for (int i = 0; i < r->n_finding; i++)
     if (r->finding[i].named->n_rival) {
@@ -62,6 +62,14 @@ static void advise_fly(report_t *r) {
     }
   if (r->study->diagnosis.unknown) {
     advise_place(r, &r->study->diagnosis.left.cell);
+    return;
+  }
+  if (report_turning_missed(r)) {
+    const double command_Hz = r->study->diagnosis.fit.grid[0].command_Hz;
+    note(
+        &r->to_do,
+        "fly: the same again, logged %g times a second, for what turns the vehicle: these rows miss commands",
+        command_Hz > 0.0 ? command_Hz : GAP_RATE_HZ);
     return;
   }
   for (int i = 0; i < r->n_untested; i++)

@@ -25,7 +25,7 @@ static void headline(const report_t *r, FILE *out) {
   const study_t *const s = r->study;
   fputs("<h1>", out);
   for (int i = 0; i < r->n_finding; i++) html_text(out, i ? "; " : "Missing: ", r->finding[i].family, "");
-  if (r->n_finding && s->diagnosis.unknown) fputs(", and something without a name", out);
+  if (r->n_finding && s->diagnosis.unknown) fputs("; and something without a name", out);
   if (!r->n_finding) report_headline(r, NULL, out);
   html_text(out, "</h1><p class=quiet>", study_vehicle(s), " against ");
   fprintf(out, "%d flight%s; held out: ", s->fit.n + s->held.n, s->fit.n + s->held.n > 1 ? "s" : "");

@@ -79,6 +79,8 @@ static void take_others(report_t *r) {
     if (!obstacle && !c)
       obstacle = model_fx(&r->study->vehicle, fx)
                      ? "the vehicle file has it, and no other number of it is looked for in these logs"
+                 : report_turning_missed(r)
+                     ? "it shows in none of the residuals, because rows miss commands: log faster"
                      : "it shows in none of the residuals that can be formed from these logs";
     if (!obstacle) {
       take_looked_for(r, fx, c, least);
@@ -119,6 +121,14 @@ bool report_has_residual(const report_t *r) {
   bool any = false;
   for (int ch = 0; ch < CHANNELS; ch++) any = any || r->study->diagnosis.held_out.channel[ch].used;
   return any;
+}
+
+bool report_turning_missed(const report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  bool out = false, missed = false;
+  for (int ch = CH_WX; ch <= CH_WZ; ch++) out = out || d->fit.excluded[ch];
+  for (int f = 0; f < d->fit.n_grid; f++) missed = missed || grid_misses_commands(&d->fit.grid[f]);
+  return out && missed;
 }
 
 bool report_can_tell(const report_t *r) {

@@ -191,8 +191,10 @@ extern const char *const report_feedback[]; // by confirm_answer_t
 double report_left(const report_t *r);
 // True if a residual of the held-out flights can be formed.
 bool report_has_residual(const report_t *r);
-// True if, besides, something is named or it is known what feedback alone leaves; else nothing could have
-// been found.
+// True if a channel of the turning is left out in flights whose rows miss commands.
+bool report_turning_missed(const report_t *r);
+// True if, besides a residual, something is named or it is known what feedback alone leaves; else nothing
+// could have been found.
 bool report_can_tell(const report_t *r);
 // True if the names do not explain the held-out flights better, all channels together.
 bool report_contradicted(const report_t *r);

@@ -115,10 +115,10 @@ static void print_untested(const report_t *r, FILE *out) {
 static void print_missing(const report_t *r, FILE *out) {
   for (int i = 0; i < r->n_finding; i++) {
     const finding_t *const f = &r->finding[i];
-    fprintf(out, "%s %s", i ? "," : "", f->family);
+    fprintf(out, "%s %s", i ? ";" : "", f->family);
     if (f->named->n_rival) fprintf(out, " (%s)", f->says);
   }
-  fprintf(out, "%s.\n", r->study->diagnosis.unknown ? ", and something that has no name" : "");
+  fprintf(out, "%s.\n", r->study->diagnosis.unknown ? "; and something that has no name" : "");
 }
 
 // Prints, if nothing is missing, what these flights would have shown.

@@ -221,9 +221,9 @@ static void warn_of_diagnosis(report_t *r) {
            ch == CH_WZ && d->fit.spins_other
                ? "%s is left out: it goes against the commands, and follows them with the other sign of "
                  "`spin` in the vehicle file"
-               : "%s is left out: the logged commands say too little of it (logged more slowly than given, "
-                 "or motors in another order?)",
-           gap_channel[ch]);
+               : "%s is left out: the logged commands say too little of it (%s)",
+           gap_channel[ch],
+           report_turning_missed(r) ? "rows miss commands: log faster" : "motors in another order?");
   if (d->found.aligned)
     warn(r,
          "commands act %.1f ms later than the model has it: below %.3g ms this is what feedback alone or "
@@ -336,6 +336,9 @@ static void warn_of_attitude(report_t *r) {
   const study_t *const s = r->study;
   const grid_t *const g = s->diagnosis.held.grid;
   const gap_part_t *const part = s->diagnosis.held_out.channel;
+  const cell_t *const unknown =
+      &s->diagnosis.left.cell; // it goes with the turn rates, too, where it is at a place
+  if (s->diagnosis.unknown && unknown->channel < CH_FZ) return;
   const bool turned = g && (g->acceleration_made || s->columns.acc != ACC_BODY);
   if (!turned || !g->has_rates || !g->has_attitude || !part[CH_FX].used || !part[CH_FY].used) return;
   double stderr_s;
