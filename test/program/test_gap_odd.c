@@ -54,3 +54,21 @@ TEST(gap_says_in_one_line_why_it_cannot_use_what_it_is_given) {
     CHECK_TEXT(after, before);
   }
 }
+
+// Another simulator's hover: its controller knows the truth and settles, and only the logged states have
+// noise.
+TEST(gap_reads_a_hover_in_which_the_commands_stand_still) {
+  char text[4000];
+  CHECK(gap_logs_fly("odd", 1, NULL));
+  CHECK(
+      program_run(
+          "awk 'function e(sd) {return sd * (rand() + rand() + rand() + rand() - 2) * 1.73} "
+          "BEGIN {FS = OFS = \",\"; srand(3)} NR > 1 {$2 = e(0.001); $3 = e(0.001); $4 = 0.5 + e(0.001); "
+          "for (i = 5; i <= 7; i++) $i = e(0.009); $8 = e(0.003); $9 = e(0.003); $10 = 1 + e(0.003); "
+          "$11 = 1; for (i = 12; i <= 14; i++) $i = e(0.001); for (i = 15; i <= 17; i++) $i = e(0.3); "
+          "for (i = 18; i <= 21; i++) $i = 0.0785 + (NR < 500 ? e(0.002) : 0)} 1' $S/odd0.csv >$S/hover.csv; "
+          "gap --vehicle $S/room.toml --columns tools/columns/fly.toml $S/hover.csv 2>&1",
+          STREAM_OUTPUT, text, sizeof text) == 0);
+  ROW("%s", text);
+  CHECK(strstr(text, " s in the air") != NULL);
+}

@@ -13,6 +13,7 @@
 #define RUN_ROWS    10
 #define OTHERS_MOVE 0.5  // of stuck_s: other signals have moved for so long
 #define MOVES       0.02 // of the weight, or m/s: a noise-free log that settles moves less while others stand
+#define CLIMB_S     0.1  // over which a climb rate is averaged: white noise of 2 cm/s is no movement then
 
 // Signals that cannot stand still together while the vehicle flies.
 typedef struct {
@@ -107,13 +108,24 @@ static double speed_mps(const raw_t *raw, int i) {
   return isfinite(speed) ? speed : 0.0;
 }
 
-// True if thrust or climb rate changed between two rows, or neither is logged: in a simulated hover without
-// noise everything may stand still.
+// Returns the change of the climb rate from the first rows of a stretch to its last ones, CLIMB_S each; 0:
+// too short. NaN: a value is missing.
+static double climbs_mps(const raw_t *raw, int from, int i) {
+  int rows = 1;
+  while (from + rows < i && raw->t_s[from + rows] - raw->t_s[from] < CLIMB_S) rows++;
+  double change_mps = 0.0;
+  if (i - from < 2 * rows) return 0.0;
+  for (int k = 0; k < rows; k++) change_mps += (raw->v[SIG_VZ][i - k] - raw->v[SIG_VZ][from + k]) / rows;
+  return change_mps;
+}
+
+// True if thrust or climb rate changed between two rows, or neither is logged: in a simulated hover
+// everything but noise that was added may stand still, the commands too.
 static bool moved(const raw_t *raw, const model_t *vehicle, int from, int i) {
   const double *const thrust_N = raw->v[SIG_THRUST], *const climb_mps = raw->v[SIG_VZ];
   if (!thrust_N && !climb_mps) return true;
   return (thrust_N && fabs(thrust_N[i] - thrust_N[from]) > MOVES * vehicle->mass_kg * G_MPS2) ||
-         (climb_mps && fabs(climb_mps[i] - climb_mps[from]) > MOVES);
+         (climb_mps && fabs(climbs_mps(raw, from, i)) > MOVES);
 }
 
 static const char *unless_simulated(signal_id_t signal, double value) {
