@@ -42,5 +42,6 @@ def complaints() -> list[str]:
 
 if __name__ == "__main__":
     wrong = complaints()
+    mutants.equivalent()  # it refuses a row whose line has changed
     print("\n".join(wrong) or f"test_mutate.py: {len(ROWS)} lines give the mutants they should")
     sys.exit(1 if wrong else 0)

@@ -45,6 +45,7 @@ python3 tools/lint/arrows.py || fail "an include that points up the stack, or in
 python3 tools/lint/rules.py || fail "the rules of the house"
 python3 tools/lint/traps.py || fail "a trap of test/seeded that changes nothing"
 said=$(python3 -m unittest discover -q -s test/doc 2>&1) || fail "the tests of tools/doc: $said"
+said=$(python3 test/mutants/test_mutate.py 2>&1) || fail "the mutants: $said"
 python3 tools/doc/doc.py check || fail "documents and recipes"
 python3 tools/lint/links.py || fail "a page that leads nowhere"
 [ $bad = 0 ] && echo "lint: clean"
