@@ -12,14 +12,15 @@ static const double MORE_TAU_S[] = {0.0, 0.03, 0.06, 0.1};
 #define EXPLAINS_MORE 0.25 // least gain of another order, as a share of one axis's turning
 
 typedef struct {
-  double slope, correlation;
+  double slope, most, correlation; // most: the slope that it has at most, by two standard errors
 } likeness_t;
 
 // Compares measured with predicted increments; slope and correlation are 1 if either is 0.
 static likeness_t likeness(const rows_t *r, const double *measured, const double *residual) {
   const increments_t s = increments_of(r, measured, residual);
-  return s.pp > 0.0 && s.yy > 0.0 ? (likeness_t){s.yp / s.pp, s.yp / sqrt(s.yy * s.pp)}
-                                  : (likeness_t){1.0, 1.0};
+  if (!(s.pp > 0.0 && s.yy > 0.0)) return (likeness_t){1.0, 1.0, 1.0};
+  const double slope = s.yp / s.pp, error = sqrt(fmax(s.yy / s.pp - slope * slope, 0.0) / s.n);
+  return (likeness_t){slope, slope + 2.0 * error, s.yp / sqrt(s.yy * s.pp)};
 }
 
 // Finds, by channel, how well turning follows the commands at the best of the first `lags` of MORE_TAU_S.
@@ -28,7 +29,7 @@ static done_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, l
   double *r[CHANNELS], *measured[CHANNELS] = {NULL};
   const size_t n = set_most_rows(s);
   for (size_t ch = 0; ch < CHANNELS; ch++) {
-    best[ch] = (likeness_t){1.0, -2.0};
+    best[ch] = (likeness_t){1.0, 1.0, -2.0};
     r[ch] = room + ch * n;
   }
   for (size_t ch = CH_WX; ch <= CH_WZ; ch++) measured[ch] = room + (CHANNELS + ch - CH_WX) * n;
@@ -125,8 +126,8 @@ static done_t try_other_spins(set_t *s, const model_t *m, double *room, const li
                               why_t *why) {
   model_t other = *m;
   likeness_t then[CHANNELS];
-  if (!(best[CH_WZ].correlation < 0.0 && best[CH_WX].slope >= EXCLUDED_SLOPE &&
-        best[CH_WY].slope >= EXCLUDED_SLOPE))
+  if (!(best[CH_WZ].correlation < 0.0 && best[CH_WZ].most < EXCLUDED_SLOPE &&
+        best[CH_WX].slope >= EXCLUDED_SLOPE && best[CH_WY].slope >= EXCLUDED_SLOPE))
     return DONE;
   for (int k = 0; k < ROTORS; k++) other.frame.rotor_spin[k] *= -1.0;
   TRY(best_of(s, &other, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, then, why));
@@ -149,7 +150,7 @@ static done_t exclude(set_t *s, const model_t *m, double *room, why_t *why) {
           ch == CH_WZ && s->spins_other ? " (it follows with the other sign of `spin` in the vehicle file)"
                                         : "");
   for (int ch = CH_WX; ch <= CH_WZ; ch++) {
-    s->excluded[ch] = best[ch].slope < EXCLUDED_SLOPE;
+    s->excluded[ch] = best[ch].most < EXCLUDED_SLOPE;
     any = any || s->excluded[ch];
   }
   return any ? find_order(s, m, room, why) : DONE;

@@ -14,7 +14,7 @@
 
 #include "gap/2_predict/residual.h"
 
-#define EXCLUDED_SLOPE   0.25 // measured over predicted increments; below, the channel is excluded
+#define EXCLUDED_SLOPE   0.25 // measured over predicted increments; surely below, the channel is excluded
 #define EXCLUDED_AGAINST -0.5 // correlation; below, the log is refused
 
 // Sets s->excluded, and s->spins_other where `spin` of the vehicle file has the wrong sign. BAD_INPUT: the

@@ -35,6 +35,7 @@ TEST(gap_says_that_the_spins_have_the_other_sign) {
   } row[] = {
       {"as it is", {1.0, -1.0, 1.0, -1.0}, 0.0, false, false, NULL},
       {"as it is, in noise", {1.0, -1.0, 1.0, -1.0}, 0.3, false, false, NULL},
+      {"as it is, in so much noise that nothing is sure", {1.0, -1.0, 1.0, -1.0}, 8.0, false, false, NULL},
       {"the other sign", {-1.0, 1.0, -1.0, 1.0}, 0.0, false, true, OTHER},
       {"the other sign, in noise", {-1.0, 1.0, -1.0, 1.0}, 0.3, true, true, NULL},
   };
