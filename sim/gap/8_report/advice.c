@@ -64,6 +64,14 @@ static void advise_fly(report_t *r) {
     advise_place(r, &r->study->diagnosis.left.cell);
     return;
   }
+  if (r->n_finding == 0 && !r->study->by_time && report_adequacy_of_all(r) == LEFT_MORE) {
+    note(&r->to_do,
+         "fly: nothing yet; hold out another of these flights (--hold-out LOG), for what %s alone shows is "
+         "not "
+         "fitted",
+         report_log_name(r, r->study->diagnosis.held.grid[0].flight));
+    return;
+  }
   if (report_turning_missed(r)) {
     const double command_Hz = r->study->diagnosis.fit.grid[0].command_Hz;
     note(

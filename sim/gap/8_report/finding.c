@@ -119,6 +119,9 @@ static void say_what(finding_t *f, const double *effect, int rows) {
 
 const char *const standing_name[] = {"ambiguous", "likely", "strong"};
 
+// A strong name is as probable: of those that were stated so, as many were right (test/README.md).
+#define STRONG 0.95
+
 standing_t report_standing(const report_t *r, const finding_t *f) {
   const diagnosis_t *const d = &r->study->diagnosis;
   const int ch = f->profile.channel;
@@ -127,8 +130,8 @@ standing_t report_standing(const report_t *r, const finding_t *f) {
   const bool unexplained = d->unknown && d->left.cell.channel == ch;
   const left_over_t left = report_adequacy(r, ch);
   const bool borne_out = isnan(f->named->held_share) || f->named->held_share > 0.5;
-  const bool doubted =
-      unexplained || left == LEFT_MORE || left == LEFT_UNKNOWN || report_contradicted(r) || !borne_out;
+  const bool doubted = unexplained || left == LEFT_MORE || left == LEFT_UNKNOWN || report_contradicted(r) ||
+                       !borne_out || f->named->probability < STRONG;
   return doubted ? STANDS_LIKELY : STANDS_STRONG;
 }
 

@@ -12,20 +12,24 @@ TEST(gap_tells_no_name_as_strong_that_held_out_flights_speak_against) {
     double left_after, floor; // of 1
     double held_share;        // of the name
     int rivals;
+    double probability;
     standing_t standing;
-  } cases[] = {{"explained better", 0.9, 0.04, 1.0, 0, STANDS_STRONG},
-               {"no better", 1.0, 0.04, 1.0, 0, STANDS_LIKELY},
-               {"better, and more than noise is left", 0.9, 0.01, 1.0, 0, STANDS_LIKELY},
-               {"better, and another name would do", 0.9, 0.04, 1.0, 1, STANDS_AMBIGUOUS},
-               {"better, not by this name", 0.9, 0.04, 0.49, 0, STANDS_LIKELY},
-               {"better, a little by this name", 0.9, 0.04, 0.51, 0, STANDS_STRONG},
-               {"better, and nothing judges the name", 0.9, 0.04, (double)NAN, 0, STANDS_STRONG}};
+  } cases[] = {{"explained better", 0.9, 0.04, 1.0, 0, 0.99, STANDS_STRONG},
+               {"no better", 1.0, 0.04, 1.0, 0, 0.99, STANDS_LIKELY},
+               {"better, and more than noise is left", 0.9, 0.01, 1.0, 0, 0.99, STANDS_LIKELY},
+               {"better, and another name would do", 0.9, 0.04, 1.0, 1, 0.99, STANDS_AMBIGUOUS},
+               {"better, and as improbable as not", 0.9, 0.04, 1.0, 0, 0.94, STANDS_LIKELY},
+               {"better, and nobody knows how probable", 0.9, 0.04, 1.0, 0, (double)NAN, STANDS_STRONG},
+               {"better, not by this name", 0.9, 0.04, 0.49, 0, 0.99, STANDS_LIKELY},
+               {"better, a little by this name", 0.9, 0.04, 0.51, 0, 0.99, STANDS_STRONG},
+               {"better, and nothing judges the name", 0.9, 0.04, (double)NAN, 0, 0.99, STANDS_STRONG}};
   for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
     ROW("%s", cases[i].what);
     study_t *const study = calloc(1, sizeof *study);
     report_t *const r = calloc(1, sizeof *r);
     diagnosis_t *const d = &study->diagnosis;
-    named_t named = {.n_rival = cases[i].rivals, .held_share = cases[i].held_share};
+    named_t named = {
+        .n_rival = cases[i].rivals, .held_share = cases[i].held_share, .probability = cases[i].probability};
     const finding_t finding = {.named = &named, .profile = {.channel = CH_FZ}};
     r->study = study;
     d->nominal_flew = true;
