@@ -64,12 +64,12 @@ static void advise_fly(report_t *r) {
     advise_place(r, &r->study->diagnosis.left.cell);
     return;
   }
-  if (r->n_finding == 0 && !r->study->by_time && report_adequacy_of_all(r) == LEFT_MORE) {
+  const set_t *const held = &r->study->diagnosis.held;
+  if (r->n_finding == 0 && held->n_grid && !r->study->by_time && report_adequacy_of_all(r) == LEFT_MORE) {
     note(&r->to_do,
-         "fly: nothing yet; hold out another of these flights (--hold-out LOG), for what %s alone shows is "
-         "not "
-         "fitted",
-         report_log_name(r, r->study->diagnosis.held.grid[0].flight));
+         "fly: nothing yet; hold out another of these flights (--hold-out LOG): what %s alone shows is no "
+         "name",
+         report_log_name(r, held->grid[0].flight));
     return;
   }
   if (report_turning_missed(r)) {
