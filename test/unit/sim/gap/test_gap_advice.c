@@ -1,0 +1,87 @@
+// test_gap_advice.c - what the report advises: to use, to add, to fly.
+#include "gap/8_report/report.h"
+#include "rig/test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// Keys that a vehicle file lacks, bit by bit as frame_lacks() counts them.
+TEST(gap_advises_to_add_what_was_taken_from_a_crazyflie) {
+  static const struct {
+    unsigned lacks;
+    const char *line;
+  } cases[] = {
+      {0, "add: nothing more to the vehicle file"},
+      {1, "add: what the vehicle file does not say and is a Crazyflie's: body.inertia_kgm2"},
+      {0x7e0, "add: what the vehicle file does not say and is a Crazyflie's: [rotors]"},
+  };
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  r->study = study;
+  study->order.vehicle = "v.toml";
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ROW("%#x", cases[i].lacks);
+    study->vehicle.frame_lacks = cases[i].lacks;
+    memset(&r->to_do, 0, sizeof r->to_do);
+    report_advise(r);
+    CHECK(r->to_do.n == 3);
+    CHECK_TEXT(r->to_do.line[1], cases[i].line);
+  }
+  free(study);
+  free(r);
+}
+
+TEST(gap_advises_to_mind_what_has_no_name) {
+  static const char *const alone = "use: the vehicle file as it is; these flights add nothing to it";
+  static const char *const mind =
+      "use: the vehicle file as it is, and mind that it leaves more than noise in these flights";
+  static const struct {
+    bool unknown, more;
+    double left, jumps; // of the floor; share
+  } cases[] = {
+      {false, false, 1.9, 0.74}, {false, true, 1.0, 0.76}, {false, true, 2.1, 0.0}, {true, true, 1.9, 0.0}};
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  r->study = study;
+  study->diagnosis.nominal_flew = true;
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ROW("%g", cases[i].left);
+    study->diagnosis.unknown = cases[i].unknown;
+    study->diagnosis.held_out.channel[CH_WY] =
+        (gap_part_t){.used = true, .after = cases[i].left, .floor = 1.0, .jumps = cases[i].jumps};
+    memset(&r->to_do, 0, sizeof r->to_do);
+    report_advise(r);
+    CHECK_TEXT(r->to_do.line[0], cases[i].more ? mind : alone);
+  }
+  free(study);
+  free(r);
+}
+
+TEST(gap_advises_to_fly_where_something_is_but_not_when) {
+  static const struct {
+    cell_t cell;
+    const char *line;
+  } cases[] = {
+      {{.along = COORDINATE_HEIGHT, .coordinate = "height", .unit = "m", .from = 0.4, .to = 0.6},
+       "fly: the same again with more time at height 0.4 to 0.6 m, and as much beside it"},
+      {{.along = COORDINATE_TIME, .coordinate = "time", .unit = "s", .from = 3.0, .to = 3.2},
+       "fly: the same again, and see whether it comes at time 3 to 3.2 s once more; "},
+      {{.along = NOWHERE, .coordinate = "frequency", .unit = "Hz", .from = 2.4, .to = 2.6},
+       "fly: the same again with another pilot or other gains, and see whether it stays at frequency "
+       "2.4 to 2.6 Hz"},
+      {{.along = BY_FLIGHT, .coordinate = "flight"}, "fly: twice with nothing touched in between, "},
+  };
+  study_t *const study = calloc(1, sizeof *study);
+  report_t *const r = calloc(1, sizeof *r);
+  r->study = study;
+  study->diagnosis.unknown = true;
+  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+    ROW("%s", cases[i].cell.coordinate);
+    study->diagnosis.left.cell = cases[i].cell;
+    memset(&r->to_do, 0, sizeof r->to_do);
+    report_advise(r);
+    CHECK(strncmp(r->to_do.line[2], cases[i].line, strlen(cases[i].line)) == 0);
+  }
+  free(study);
+  free(r);
+}
