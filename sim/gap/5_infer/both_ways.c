@@ -104,7 +104,8 @@ double both_ways_least(const both_t *b) {
 double both_ways_agree(const both_t *b, double k, double stderr_) {
   if (!(b->yp > 0.0) || b->apart) return 0.0;
   const double end = k > 0.0 ? sure_larger(b, stderr_) : sure_smaller(b, stderr_);
-  return fabs(k) > fabs(end) - SCORE_ERRORS * error(b, stderr_) ? end : 0.0;
+  const double apart = SCORE_ERRORS * hypot(error(b, stderr_), CANDIDATES_MISFIT * (1.0 + k));
+  return fabs(k) > fabs(end) - apart ? end : 0.0;
 }
 
 bool both_ways_stand(const both_t about[3], const scaled_t told[3]) {

@@ -81,6 +81,8 @@ TEST(gap_takes_no_inertia_within_two_standard_errors) {
   CHECK(both_ways_agree(&b, k, 0.24) > 0.0);
   CHECK(both_ways_agree(&b, k, 0.26) == 0.0);
   CHECK(both_ways_agree(&b, 0.2, 0.05) == 0.0); // the rows themselves say 0.5
+  CHECK(both_ways_agree(&b, 0.45, 0.001) > 0.0 &&
+        both_ways_agree(&b, 0.4, 0.001) == 0.0); // 2 % of 1.45, twice
   CHECK(both_ways_agree(&b, -0.5, 0.05) == 0.0);
   const both_t less = rows_of(&(turning_t){-0.33, .missed = 0.05}, 1, &k);
   CHECK(both_ways_agree(&less, k, 0.05) < -0.3 && both_ways_agree(&less, -0.1, 0.05) == 0.0);
