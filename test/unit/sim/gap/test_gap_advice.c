@@ -87,44 +87,46 @@ TEST(gap_advises_to_fly_where_something_is_but_not_when) {
 }
 
 // Nothing is named or unknown: what a faster log would show, or another flight that is held out.
+static const struct {
+  const char *what;
+  bool more, by_time, left_out;
+  double rows_Hz, command_Hz;
+  const char *line;
+} another[] = {
+    {"all is explained", false, false, false, 500.0, 500.0,
+     "fly: nothing more for the effects that are known"},
+    {"more is left", true, false, false, 500.0, 500.0,
+     "fly: nothing yet; hold out another of these flights (--hold-out LOG): what steps.csv alone shows is "
+     "no name"},
+    {"more is left by turns", true, true, false, 500.0, 500.0,
+     "fly: nothing more for the effects that are known"},
+    {"rows miss commands", false, false, true, 100.0, 250.0,
+     "fly: the same again, logged 250 times a second, for what turns the vehicle: these rows miss "
+     "commands"},
+    {"rows are few", false, false, true, 100.0, 0.0,
+     "fly: the same again, logged 500 times a second, for what turns the vehicle: these rows miss "
+     "commands"},
+    {"rows have all commands", false, false, true, 250.0, 250.0,
+     "fly: nothing more for the effects that are known"},
+};
+
 TEST(gap_advises_another_log_where_no_other_flight_helps) {
-  static const struct {
-    const char *what;
-    bool more, by_time, left_out;
-    double rows_Hz, command_Hz;
-    const char *line;
-  } cases[] = {
-      {"all is explained", false, false, false, 500.0, 500.0,
-       "fly: nothing more for the effects that are known"},
-      {"more is left", true, false, false, 500.0, 500.0,
-       "fly: nothing yet; hold out another of these flights (--hold-out LOG): what steps.csv alone shows is "
-       "no name"},
-      {"more is left by turns", true, true, false, 500.0, 500.0,
-       "fly: nothing more for the effects that are known"},
-      {"rows miss commands", false, false, true, 100.0, 250.0,
-       "fly: the same again, logged 250 times a second, for what turns the vehicle: these rows miss "
-       "commands"},
-      {"rows are few", false, false, true, 100.0, 0.0,
-       "fly: the same again, logged 500 times a second, for what turns the vehicle: these rows miss "
-       "commands"},
-      {"rows have all commands", false, false, true, 250.0, 250.0,
-       "fly: nothing more for the effects that are known"},
-  };
-  for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
-    ROW("%s", cases[i].what);
+  for (unsigned i = 0; i < sizeof another / sizeof *another; i++) {
+    ROW("%s", another[i].what);
     study_t *const study = calloc(1, sizeof *study);
     report_t *const r = calloc(1, sizeof *r);
     diagnosis_t *const d = &study->diagnosis;
-    gap_flight_t log = {.name = "logs/steps.csv", .rate_Hz = cases[i].rows_Hz};
-    grid_t grid = {.flight = &log, .command_Hz = cases[i].command_Hz};
+    gap_flight_t log = {.name = "logs/steps.csv", .rate_Hz = another[i].rows_Hz};
+    grid_t grid = {.flight = &log, .command_Hz = another[i].command_Hz};
     r->study = study;
-    study->by_time = cases[i].by_time;
+    study->by_time = another[i].by_time;
     d->nominal_flew = true;
     d->fit = d->held = (set_t){.grid = &grid, .n_grid = 1};
-    d->fit.excluded[CH_WX] = cases[i].left_out;
-    d->held_out.channel[CH_FZ] = (gap_part_t){.used = true, .after = cases[i].more ? 3.0 : 1.0, .floor = 1.0};
+    d->fit.excluded[CH_WX] = another[i].left_out;
+    d->held_out.channel[CH_FZ] =
+        (gap_part_t){.used = true, .after = another[i].more ? 3.0 : 1.0, .floor = 1.0};
     report_advise(r);
-    CHECK_TEXT(r->to_do.line[2], cases[i].line);
+    CHECK_TEXT(r->to_do.line[2], another[i].line);
     free(study);
     free(r);
   }
