@@ -321,6 +321,7 @@ static bool bar_refuted(diagnosis_t *d) {
     if (!confirm_refutes(&named->confirm) || d->n_refuted >= NAMED_MAX) continue;
     if (d->candidates.candidate[named->candidate].barred) continue; // it is withdrawn already
     refute(d, named, MADE_BY_FEEDBACK);
+    candidates_bar(&d->candidates, named->candidate); // feedback makes the other kinds, too
     refuted = true;
   }
   return refuted;

@@ -84,7 +84,7 @@ def counted() -> None:
 
 def outside() -> None:
     """Only the table: what each set was stands in out/flown_outside."""
-    said = program("make", "outside", "SEED=115301", "SETS=40")
+    said = program("make", "outside", "SEED=118301", "SETS=40")
     if said.startswith("skipped"):
         raise run.Left(said.strip())
     print(said[said.index("\nseed ") + 1:], end="")

@@ -185,6 +185,14 @@ bool candidate_is_numbered(const candidate_t *c) {
          fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
 }
 
+void candidates_bar(candidates_t *c, int candidate) {
+  const candidate_t *const own = &c->candidate[candidate];
+  const bool alone = candidate_is_numbered(own);
+  for (int i = 0; i < c->n; i++)
+    if (i == candidate || (!alone && candidates_exclude(&c->candidate[i], own)))
+      c->candidate[i].barred = true;
+}
+
 void candidates_reshape(candidates_t *c, const chosen_t *chosen) {
   for (int i = 0; i < chosen->n; i++) {
     const fx_t *const fx = chosen->use[i].fx;

@@ -49,6 +49,8 @@ typedef struct {
 // True for the same numbers of the same effect, perhaps in another shape or kind: at most one of them is
 // there.
 bool candidates_exclude(const candidate_t *a, const candidate_t *b);
+// Bars a candidate in every kind and shape; of one whose shape is a number (which rotor) it alone.
+void candidates_bar(candidates_t *c, int candidate);
 
 // Returns its name for people; numbers that an effect has apart (fx->size_apart) have a name of their own.
 const char *candidate_name(const candidate_t *c);

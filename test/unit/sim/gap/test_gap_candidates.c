@@ -377,3 +377,21 @@ TEST(gap_the_voltage_of_a_map_is_looked_for_where_the_battery_s_cells_have_it) {
     candidates_free(&c);
   }
 }
+
+TEST(what_is_barred_is_barred_in_every_kind_but_not_another_rotor) {
+  static const char *const row[] = {"thrust_slope", "ceiling", "accel_bias", "motor_damage"};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i]);
+    log_t l;
+    candidates_t c;
+    why_t why;
+    log_make(&l);
+    CHECK_OK(candidates_make(&c, &l.model, &l.set, &why));
+    int first = 0, barred = 0;
+    while (strcmp(c.candidate[first].use.fx->name, row[i]) != 0) first++;
+    candidates_bar(&c, first);
+    for (int k = 0; k < c.n; k++) barred += c.candidate[k].barred;
+    CHECK(barred == (i == 3 ? 1 : candidates_of(&c, first)) && c.candidate[first].barred);
+    candidates_free(&c);
+  }
+}
