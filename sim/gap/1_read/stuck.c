@@ -13,7 +13,8 @@
 #define RUN_ROWS    10
 #define OTHERS_MOVE 0.5  // of stuck_s: other signals have moved for so long
 #define MOVES       0.02 // of the weight, or m/s: a noise-free log that settles moves less while others stand
-#define CLIMB_S     0.1  // over which a climb rate is averaged: white noise of 2 cm/s is no movement then
+#define CLIMB_S                                                                                              \
+  0.1 // s, over which a climb rate is averaged: 1 cm/s of white noise is no movement then, from 100 Hz on
 
 // Signals that cannot stand still together while the vehicle flies.
 typedef struct {

@@ -44,9 +44,10 @@ double both_ways_least(const both_t *b);
 // The same for a named k, with its standard error; 0 also where k is nearer to 0 than that end by more than
 // two errors, of which the misfit of linear columns is one. For k below 0 it is the upper end, and the whole
 // uncorrelated part of the two counts as an error: gyro noise v that control feeds back against itself can
-// make that much, and seems to turn the vehicle more than commands do. With y = s + v and p = s - c v, c >=
-// 0, predicted on measured gives k = -(1
-// + c) v^2 / (s^2 + v^2), and that part is never less than |k|; measured on predicted gives no k below 0.
+// make that much, and seems to turn the vehicle more than commands do. With y = s + v and p = s - c v, where
+// c is not negative, predicted on measured gives
+//   k = -(1 + c) v^2 / (s^2 + v^2),
+// and that part is never less than |k|; measured on predicted gives no k below 0.
 // Noise fed back with its own sign is not excluded here: nominal flights show how much there is.
 double both_ways_agree(const both_t *b, double k, double stderr_);
 

@@ -315,6 +315,9 @@ static bool is_inside(const set_t *s, const model_t *m, const rows_t *r, const c
   return !c->is_patch || (y_m >= c->y_from_m && y_m <= c->y_to_m);
 }
 
+// Least contrast within flights, over the rows inside: where flights cross the window it is a half at least.
+#define CROSSED 0.25
+
 // Takes each flight's mean out of both.
 static void within_flights(const rows_t *r, double *x, double *v) {
   for (int from = 0, end; from < r->n; from = end) {
@@ -326,10 +329,10 @@ static void within_flights(const rows_t *r, double *x, double *v) {
   }
 }
 
-static void regress(const rows_t *r, const double *x, const double *v, cell_t *cell) {
+static void regress(const rows_t *r, const double *x, const double *v, int inside, cell_t *cell) {
   double xx = 0.0, xv = 0.0, squares = 0.0;
   for (int i = 0; i < r->n; i++) xx += x[i] * x[i], xv += x[i] * v[i];
-  if (!(xx > 0.0)) return; // each flight is inside, or outside: as the look found it
+  if (!(xx > CROSSED * inside)) return; // flights are inside, or outside: as the look found it
   const double size = xv / xx;
   for (int from = 0, end; from < r->n; from = end) {
     double score = 0.0;
@@ -352,9 +355,10 @@ done_t unknown_measure(const set_t *s, const model_t *m, double *const residual[
   if (!x) status = error_failed(why, "out of memory");
   if (status == DONE) {
     if (cell->world) turn_by_heading(s, 1.0, v.r[CH_FX], v.r[CH_FY], v.r[CH_FX], v.r[CH_FY]);
-    for (int i = 0; i < r->n; i++) x[i] = is_inside(s, m, r, cell, i);
+    int inside = 0;
+    for (int i = 0; i < r->n; i++) inside += is_inside(s, m, r, cell, i), x[i] = is_inside(s, m, r, cell, i);
     within_flights(r, x, v.r[cell->channel]);
-    regress(r, x, v.r[cell->channel], cell);
+    regress(r, x, v.r[cell->channel], inside, cell);
   }
   free(x);
   lines_free(&v);

@@ -52,6 +52,21 @@ static void advise_place(report_t *r, const cell_t *cell) {
     note(&r->to_do, "fly: the same again with more time %s, and as much beside it", where);
 }
 
+// True if held-out flights leave far more in some channel than noise, and than the fitted ones do.
+static bool is_shown_by_held_alone(const report_t *r) {
+  const diagnosis_t *const d = &r->study->diagnosis;
+  bool alone = false;
+  for (int ch = 0; ch < CHANNELS; ch++) {
+    const gap_part_t *const p = &d->held_out.channel[ch];
+    const int n = set_rows(&d->fit, ch)->n;
+    double squares = 0.0;
+    for (int i = 0; d->residual[ch] && i < n; i++) squares += d->residual[ch][i] * d->residual[ch][i];
+    const double fitted = n ? sqrt(squares / n) : 0.0;
+    alone = alone || (p->used && p->after > LEFT_OVER * fmax(p->floor, fitted));
+  }
+  return alone && d->nominal_flew && d->withdrawn.n == 0;
+}
+
 // Says what tells a name (the largest share first) from its rivals; else what shows the unexplained residual
 // best; else what shows an effect that these flights, or logs with so few rows, could not.
 static void advise_fly(report_t *r) {
@@ -64,12 +79,10 @@ static void advise_fly(report_t *r) {
     advise_place(r, &r->study->diagnosis.left.cell);
     return;
   }
-  const set_t *const held = &r->study->diagnosis.held;
-  if (r->n_finding == 0 && held->n_grid && !r->study->by_time && report_adequacy_of_all(r) == LEFT_MORE) {
+  if (r->n_finding == 0 && !r->study->by_time && is_shown_by_held_alone(r)) {
     note(&r->to_do,
-         "fly: nothing yet; hold out another of these flights (--hold-out LOG): what %s alone shows is no "
-         "name",
-         report_log_name(r, held->grid[0].flight));
+         "fly: nothing yet; hold out other flights (--hold-out LOG): what is held out now shows something "
+         "that the fitted flights hardly do");
     return;
   }
   if (report_turning_missed(r)) {
@@ -77,7 +90,7 @@ static void advise_fly(report_t *r) {
     note(
         &r->to_do,
         "fly: the same again, logged %g times a second, for what turns the vehicle: these rows miss commands",
-        command_Hz > 0.0 ? command_Hz : GAP_RATE_HZ);
+        command_Hz > 0.0 ? fmin(command_Hz, GAP_RATE_HZ) : GAP_RATE_HZ);
     return;
   }
   for (int i = 0; i < r->n_untested; i++)

@@ -100,7 +100,7 @@ void page_unknown(const report_t *r, FILE *out) {
   char where[REPORT_PLACE], cell[REPORT_CELL];
   fprintf(out, "%s", report_cell(c, cell));
   if (d->left.also.statistic > 0.0) fprintf(out, ", or %s as well", report_place(&d->left.also, where));
-  fprintf(out, "; %.3g standard errors, where %.3g is the bound%s.</p>", c->statistic, d->left.cell_bound,
+  fprintf(out, "; its statistic is %.3g, where %.3g is the bound%s.</p>", c->statistic, d->left.cell_bound,
           d->unknown ? "" : ": chance, or a right form with other numbers");
   char acts[REPORT_FOR_A_TIME];
   if (d->for_a_time.as.n)

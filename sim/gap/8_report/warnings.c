@@ -336,9 +336,11 @@ static void warn_of_attitude(report_t *r) {
   const study_t *const s = r->study;
   const grid_t *const g = s->diagnosis.held.grid;
   const gap_part_t *const part = s->diagnosis.held_out.channel;
-  const cell_t *const unknown =
-      &s->diagnosis.left.cell; // it goes with the turn rates, too, where it is at a place
-  if (s->diagnosis.unknown && unknown->channel < CH_FZ) return;
+  // A lateral force at a place or a time is not a late attitude, though it goes with the turn rates, too.
+  const cell_t *const unknown = &s->diagnosis.left.cell;
+  const bool lies = unknown->along >= 0 && unknown->along < COORDINATES &&
+                    (coordinate_is_place(unknown->along) || unknown->along == COORDINATE_TIME);
+  if (s->diagnosis.unknown && unknown->channel < CH_FZ && lies) return;
   const bool turned = g && (g->acceleration_made || s->columns.acc != ACC_BODY);
   if (!turned || !g->has_rates || !g->has_attitude || !part[CH_FX].used || !part[CH_FY].used) return;
   double stderr_s;

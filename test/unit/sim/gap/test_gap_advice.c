@@ -96,8 +96,8 @@ static const struct {
     {"all is explained", false, false, false, 500.0, 500.0,
      "fly: nothing more for the effects that are known"},
     {"more is left", true, false, false, 500.0, 500.0,
-     "fly: nothing yet; hold out another of these flights (--hold-out LOG): what steps.csv alone shows is "
-     "no name"},
+     "fly: nothing yet; hold out other flights (--hold-out LOG): what is held out now shows something that "
+     "the fitted flights hardly do"},
     {"more is left by turns", true, true, false, 500.0, 500.0,
      "fly: nothing more for the effects that are known"},
     {"rows miss commands", false, false, true, 100.0, 250.0,

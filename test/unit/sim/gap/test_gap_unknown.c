@@ -176,6 +176,9 @@ TEST(gap_measures_what_lies_in_a_strip_by_the_rows_inside_and_outside) {
   CHECK_OK(unknown_measure(&t.set, &t.vehicle, l.r, &cell, &why));
   CHECK_NEAR(cell.size, -1.0, 0.06); // what the blur takes
   CHECK(cell.error > 0.003 && cell.error < 0.03);
+  cell_t nearly_all = {CH_FZ, COORDINATE_X, "x", "m", -9.0, 0.6, .size = -0.4, .statistic = 100.0};
+  CHECK_OK(unknown_measure(&t.set, &t.vehicle, l.r, &nearly_all, &why));
+  CHECK(nearly_all.size == -0.4 && nearly_all.error == 0.0); // nearly nothing is outside
   lines_free(&l);
   gap_track_free(&t);
 }
