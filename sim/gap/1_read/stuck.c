@@ -109,15 +109,22 @@ static double speed_mps(const raw_t *raw, int i) {
   return isfinite(speed) ? speed : 0.0;
 }
 
-// Returns the change of the climb rate from the first rows of a stretch to its last ones, CLIMB_S each; 0:
-// too short. NaN: a value is missing.
+// Returns the mean climb rate of the rows from..end-1 that have one; NaN: none has.
+static double climb_mps(const raw_t *raw, int from, int end) {
+  double sum_mps = 0.0;
+  int n = 0;
+  for (int i = from; i < end; i++)
+    if (isfinite(raw->v[SIG_VZ][i])) sum_mps += raw->v[SIG_VZ][i], n++;
+  return n ? sum_mps / n : (double)NAN;
+}
+
+// Returns the change of the climb rate from the first rows of a stretch to its last ones, CLIMB_S each; NaN:
+// not known.
 static double climbs_mps(const raw_t *raw, int from, int i) {
   int rows = 1;
   while (from + rows < i && raw->t_s[from + rows] - raw->t_s[from] < CLIMB_S) rows++;
-  double change_mps = 0.0;
-  if (i - from < 2 * rows) return 0.0;
-  for (int k = 0; k < rows; k++) change_mps += (raw->v[SIG_VZ][i - k] - raw->v[SIG_VZ][from + k]) / rows;
-  return change_mps;
+  return i - from < 2 * rows ? (double)NAN
+                             : climb_mps(raw, i + 1 - rows, i + 1) - climb_mps(raw, from, from + rows);
 }
 
 // True if thrust or climb rate changed between two rows, or neither is logged: in a simulated hover

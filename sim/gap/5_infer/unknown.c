@@ -356,7 +356,7 @@ done_t unknown_measure(const set_t *s, const model_t *m, double *const residual[
   if (status == DONE) {
     if (cell->world) turn_by_heading(s, 1.0, v.r[CH_FX], v.r[CH_FY], v.r[CH_FX], v.r[CH_FY]);
     int inside = 0;
-    for (int i = 0; i < r->n; i++) inside += is_inside(s, m, r, cell, i), x[i] = is_inside(s, m, r, cell, i);
+    for (int i = 0; i < r->n; i++) x[i] = is_inside(s, m, r, cell, i), inside += x[i] > 0.0;
     within_flights(r, x, v.r[cell->channel]);
     regress(r, x, v.r[cell->channel], inside, cell);
   }

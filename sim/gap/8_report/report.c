@@ -79,7 +79,7 @@ static void take_others(report_t *r) {
     if (!obstacle && !c)
       obstacle = model_fx(&r->study->vehicle, fx)
                      ? "the vehicle file has it, and no other number of it is looked for in these logs"
-                 : report_turning_missed(r)
+                 : report_turning_missed(r) && residual_has(&d->fit, CH_FZ)
                      ? "it shows in none of the residuals, because rows miss commands: log faster"
                      : "it shows in none of the residuals that can be formed from these logs";
     if (!obstacle) {

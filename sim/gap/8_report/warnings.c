@@ -223,7 +223,8 @@ static void warn_of_diagnosis(report_t *r) {
                  "`spin` in the vehicle file"
                : "%s is left out: the logged commands say too little of it (%s)",
            gap_channel[ch],
-           report_turning_missed(r) ? "rows miss commands: log faster" : "motors in another order?");
+           report_turning_missed(r) ? "rows miss commands: log faster"
+                                    : "logged more slowly than given, or motors in another order?");
   if (d->found.aligned)
     warn(r,
          "commands act %.1f ms later than the model has it: below %.3g ms this is what feedback alone or "
