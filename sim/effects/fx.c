@@ -42,12 +42,6 @@ const fx_param_t *fx_use_params(const fx_use_t *use, int *n) {
   return use->form ? use->form->param : use->fx->param;
 }
 
-bool fx_use_has_shape(const fx_use_t *use) {
-  int n;
-  (void)fx_use_params(use, &n);
-  return use->fx->n_shape && use->fx->shape_param < (use->form ? n - 1 : n);
-}
-
 void fx_use_form(fx_use_t *use, const curve_t *form) {
   use->form = form;
   int n;

@@ -61,6 +61,10 @@ typedef struct {
   int needs_points; // 1: takes file=FILE
   int n_param;
   fx_param_t param[FX_PARAM_MAX];
+  // The workflow looks for a surface in every form that has n_shape values to try for the second number,
+  // while it estimates the first one, which is a factor of ratio - 1. 0: in this form it does not look.
+  int n_shape;
+  double shape[FX_SHAPE_MAX];
   // distance_m: rotor plane to surface, >= 0; radius_m: of the rotor, > 0. Result: > 0, finite.
   double (*ratio)(const double *p, const curve_points_t *points, double distance_m, double radius_m);
   // Changes the curve's numbers so that its difference from 1 is `more` times as large and falls `faster`
@@ -230,8 +234,9 @@ typedef struct {
   // The model may lack the sizes from this one on without those before: they are a candidate of their own,
   // with other rivals. 0: all sizes are one candidate.
   int size_apart;
-  const char *apart_name;   // the printed name of that candidate
-  int shape_param, n_shape; // the parameter that is tried at these values; n_shape 0: none
+  const char *apart_name; // the printed name of that candidate
+  // The parameter that is tried at these values; n_shape 0: none. For a surface the values are the form's.
+  int shape_param, n_shape;
   double shape[FX_SHAPE_MAX];
   bool shape_by_cell; // the values are for one battery cell; there may be several in series
   // The parameter that selects one of a few kinds (where a force acts, whether the torque follows the
@@ -259,11 +264,6 @@ typedef struct {
 // Adds a force that acts at the hub.
 static inline void fx_push_hub(const fx_hub_t *hub, d3_t force_b_N, load_t *load) {
   load_add(load, force_b_N, d3_cross(hub->at_b_m, force_b_N));
-}
-
-// Returns the number of its candidates: shapes times kinds.
-static inline int fx_variants(const fx_t *fx) {
-  return EITHER(fx->n_shape > 0, fx->n_shape, 1) * EITHER(fx->n_kind > 0, fx->n_kind, 1);
 }
 
 extern const fx_t *const fx_table[];
@@ -336,7 +336,20 @@ static inline int fx_use_kind(const fx_use_t *use) {
   return use->form ? use->form->n_param - 1 : use->fx->kind_param;
 }
 
-// True if it has a shape in its present form; a form of points has none.
-bool fx_use_has_shape(const fx_use_t *use);
+// Returns how many values are tried for the shape in its present form, and the values; 0: it has no shape.
+static inline int fx_use_shapes(const fx_use_t *use, const double **shape) {
+  *shape = use->form ? use->form->shape : use->fx->shape;
+  return use->form ? use->form->n_shape : use->fx->n_shape;
+}
+
+static inline bool fx_use_has_shape(const fx_use_t *use) {
+  const double *shape;
+  return fx_use_shapes(use, &shape) > 0;
+}
+
+// Returns its shape, which must be there.
+static inline double fx_use_shape(const fx_use_t *use) {
+  return use->p[use->fx->shape_param];
+}
 
 #endif

@@ -97,6 +97,9 @@ int gap_rows_candidate(gap_rows_t *g, const char *effect) {
     c->typical[k] = fabs(fx->param[fx->size[k].param].nominal);
     if (c->typical[k] == 0.0) c->typical[k] = fx->size[k].step;
   }
+  const double *shape;
+  c->n_shape = fx_use_shapes(&c->use, &shape);
+  memcpy(c->shape, shape, sizeof c->shape);
   g->candidates.columns += c->n;
   return g->candidates.n++;
 }

@@ -70,13 +70,16 @@ static double typical_of(const fx_use_t *use, int k) {
 // gap_takes_decays_of_typical_size_as_equally_strong_one_radius_off holds it.
 #define TYPICAL_RADII 1.0
 
+static double by_cell(const candidates_t *c, const fx_t *fx) {
+  return fx->shape_by_cell ? c->cells : 1.0;
+}
+
 static double as_strong(const fx_use_t *use, double radius_m) {
   const double gap_m = TYPICAL_RADII * radius_m;
   const fx_place_t place = {gap_m, gap_m, radius_m};
   fx_use_t typical = fx_use(use->fx), here = *use;
-  const int size = use->fx->size[0].param;
   if (!use->fx->excess || !fx_use_has_shape(use)) return 1.0;
-  here.p[size] = typical.p[size];
+  fx_use_resize(&here, 0, typical_of(use, 0));
   return use->fx->excess(&typical, &place) / use->fx->excess(&here, &place);
 }
 
@@ -100,9 +103,12 @@ static double cells_of(const set_t *s) {
   return points > 0.0 ? fmax(1.0, round(sum_V / points / CELL_V)) : 1.0;
 }
 
-static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, numbers_t of) {
+// Adds an effect in the form, shape and kind of `use`.
+static candidate_t *add(candidates_t *c, const fx_use_t *use, const model_t *m, numbers_t of) {
+  const fx_t *const fx = use->fx;
   candidate_t *const to = &c->candidate[c->n++];
-  *to = (candidate_t){.use = fx_use(fx), .first = c->columns, .n = fx->n_size, .from = of.from, .to = of.to};
+  const double *shape;
+  *to = (candidate_t){.use = *use, .first = c->columns, .n = fx->n_size, .from = of.from, .to = of.to};
   for (int k = 0; k < fx->n_size; k++) {
     const int param = fx->size[k].param;
     const double grows = model_grows(m, fx->size[k].grows);
@@ -112,12 +118,12 @@ static void add(candidates_t *c, const fx_t *fx, const model_t *m, int variant, 
     to->least[k] = fx->size[k].sign > 0 ? 0.0 : model_fx_least(m, &to->use, param);
   }
   if (fx->needs & FX_NEEDS_WALL) to->use.p[0] = m->wall_y_m;
-  for (int i = 0; i < fx->n_shape; i++) to->shape[i] = fx->shape[i] * (fx->shape_by_cell ? c->cells : 1.0);
-  if (fx->n_shape) to->use.p[fx->shape_param] = to->shape[variant % fx->n_shape];
+  to->n_shape = fx_use_shapes(use, &shape);
+  for (int i = 0; i < to->n_shape; i++) to->shape[i] = shape[i] * by_cell(c, fx);
   const double strong = as_strong(&to->use, m->rotor_radius_m);
   for (int k = 0; k < fx->n_size; k++) to->typical[k] *= strong;
-  if (fx->n_kind) to->use.p[fx_use_kind(&to->use)] = fx->kind[variant / (fx->n_shape ? fx->n_shape : 1)];
   c->columns += to->n;
+  return to;
 }
 
 // Adds an effect that the file has, but no lag or delay: which of these there is, is another question.
@@ -126,10 +132,9 @@ static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *ow
   const fx_param_t *const param = fx_use_params(own, &n);
   const fx_t *const fx = own->fx;
   // In other forms the first number is no factor of what the effect does.
-  if (own->form && !own->form->needs_points && own->form != curve_find(fx->form_initial)) return;
+  if (own->form && !own->form->needs_points && own->form->n_shape == 0) return;
   if (fx->group == FX_TIMING) return;
-  add(c, fx, m, 0, of);
-  candidate_t *const to = &c->candidate[c->n - 1];
+  candidate_t *const to = add(c, own, m, of);
   to->use = *own;
   to->in_file = true;
   for (int k = 0; k < fx->n_size; k++) {
@@ -139,10 +144,32 @@ static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *ow
   }
 }
 
+// Adds every shape of the form of `use`, each in every kind.
+static void add_shapes(candidates_t *c, const model_t *m, fx_use_t use, numbers_t of) {
+  const fx_t *const fx = use.fx;
+  const double *shape;
+  const int shapes = fx_use_shapes(&use, &shape);
+  for (int kind = 0; kind == 0 || kind < fx->n_kind; kind++)
+    for (int i = 0; i == 0 || i < shapes; i++) {
+      if (shapes) use.p[fx->shape_param] = shape[i] * by_cell(c, fx);
+      if (fx->n_kind) use.p[fx_use_kind(&use)] = fx->kind[kind];
+      (void)add(c, &use, m, of);
+    }
+}
+
 static void add_variants(candidates_t *c, const model_t *m, const fx_t *fx, numbers_t of) {
   const fx_use_t *const own = model_fx(m, fx);
-  if (own) add_difference(c, m, own, of);
-  for (int k = own ? fx_variants(fx) : 0; k < fx_variants(fx); k++) add(c, fx, m, k, of);
+  fx_use_t use = fx_use(fx);
+  if (own)
+    add_difference(c, m, own, of);
+  else
+    add_shapes(c, m, use, of);
+  for (int i = 0; !own && i < curve_count; i++) {
+    if (!(curve_table[i]->surfaces & fx->surface) || !curve_table[i]->n_shape) continue;
+    if (curve_table[i] == use.form) continue;
+    fx_use_form(&use, curve_table[i]);
+    add_shapes(c, m, use, of);
+  }
 }
 
 done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why) {
@@ -181,8 +208,7 @@ int candidates_of(const candidates_t *c, int candidate) {
 bool candidate_is_numbered(const candidate_t *c) {
   int n;
   const fx_t *const fx = c->use.fx;
-  return fx_use_has_shape(&c->use) && fx->n_shape > 1 &&
-         fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
+  return c->n_shape > 1 && fx_is_number(&fx_use_params(&c->use, &n)[fx->shape_param]);
 }
 
 void candidates_bar(candidates_t *c, int candidate) {
@@ -196,7 +222,8 @@ void candidates_bar(candidates_t *c, int candidate) {
 void candidates_reshape(candidates_t *c, const chosen_t *chosen) {
   for (int i = 0; i < chosen->n; i++) {
     const fx_t *const fx = chosen->use[i].fx;
-    if (fx->n_shape) c->candidate[chosen->of[i]].use.p[fx->shape_param] = chosen->use[i].p[fx->shape_param];
+    if (c->candidate[chosen->of[i]].n_shape)
+      c->candidate[chosen->of[i]].use.p[fx->shape_param] = fx_use_shape(&chosen->use[i]);
   }
 }
 
@@ -247,10 +274,10 @@ static double bent_by(const candidate_t *c, const fx_use_t *use, double *far) {
     *far = fabs(fx_use_size(use, 0));
     return fx_use_size(use, 0);
   }
-  if (!fx || !fx_use_has_shape(use) || fx->n_shape < 2) return (double)NAN;
-  const double shape = use->p[fx->shape_param];
+  if (!fx || c->n_shape < 2) return (double)NAN;
+  const double shape = fx_use_shape(use);
   int next = 1;
-  while (next < fx->n_shape - 1 && c->shape[next] < shape) next++;
+  while (next < c->n_shape - 1 && c->shape[next] < shape) next++;
   *far = c->shape[next] - c->shape[next - 1];
   return shape;
 }

@@ -26,7 +26,8 @@ typedef struct {
   int from, to;
   double typical[FX_SIZE_MAX], step[FX_SIZE_MAX]; // of its numbers, for this vehicle
   double least[FX_SIZE_MAX];  // the least value of each number, by sign and for this vehicle
-  double shape[FX_SHAPE_MAX]; // values that are tried, for this vehicle's battery
+  int n_shape;                // of its form: values that are tried, 0 or more,
+  double shape[FX_SHAPE_MAX]; // for this vehicle's battery
   bool barred;                // ruled out: held-out flights or set points contradict it, or control makes it
 } candidate_t;
 

@@ -287,7 +287,7 @@ static bool moved(const candidates_t *c, const chosen_t *from, const chosen_t *t
     const fx_use_t *const a = &from->use[i], *const b = chosen_use(to, from->of[i]);
     const candidate_t *const own = &c->candidate[from->of[i]];
     if (only_adds(a->fx)) continue;
-    if (a->fx->n_shape && b && a->p[a->fx->shape_param] != b->p[a->fx->shape_param]) return true;
+    if (own->n_shape && b && fx_use_shape(a) != fx_use_shape(b)) return true;
     for (int k = 0; k < own->n; k++)
       if (fabs(fx_use_size(a, k) - (b ? fx_use_size(b, k) : 0.0)) > STAYS * own->typical[k]) return true;
   }

@@ -10,17 +10,18 @@ typedef struct {
 } row_of_shapes_t;
 
 static double shape_of(const candidate_t *c) {
-  return c->use.p[c->use.fx->shape_param];
+  return fx_use_shape(&c->use);
 }
 
 static bool same_kind(const fx_use_t *a, const fx_use_t *b) {
-  return a->fx == b->fx && (a->fx->n_kind < 2 || a->p[fx_use_kind(a)] == b->p[fx_use_kind(b)]);
+  return a->fx == b->fx && a->form == b->form &&
+         (a->fx->n_kind < 2 || a->p[fx_use_kind(a)] == b->p[fx_use_kind(b)]);
 }
 
 static bool find_neighbours(const candidates_t *c, int own, row_of_shapes_t *row) {
   const candidate_t *const all = c->candidate;
   *row = (row_of_shapes_t){own, {-1, -1}};
-  if (all[own].in_file || all[own].use.fx->n_shape < 2 || candidate_is_numbered(&all[own])) return false;
+  if (all[own].in_file || all[own].n_shape < 2 || candidate_is_numbered(&all[own])) return false;
   const double here = shape_of(&all[own]);
   for (int i = 0; i < c->n; i++) {
     const double there = shape_of(&all[i]);

@@ -147,7 +147,7 @@ static double bent(const select_t *t, int candidate) {
 // True if the candidate gets another shape than before.
 static bool take_shape(select_t *t, int candidate, double shape) {
   fx_use_t *const use = &t->candidates[candidate].use;
-  if (!use->fx->n_shape) return false;
+  if (!t->candidates[candidate].n_shape) return false;
   double *const p = &use->p[use->fx->shape_param], was = *p;
   *p = shape;
   if (choice_has(&t->round.choice, candidate))
@@ -161,8 +161,7 @@ static done_t bend_chosen(select_t *t, why_t *why) {
   bool other = false;
   for (int i = 0; !t->round.nominal && i < t->round.choice.n; i++) {
     const int candidate = t->round.choice.of[i];
-    if (round_fx(&t->round, candidate)->n_shape)
-      other = take_shape(t, candidate, bent(t, candidate)) || other;
+    if (t->candidates[candidate].n_shape) other = take_shape(t, candidate, bent(t, candidate)) || other;
   }
   if (!other) return DONE;
   TRY(round_complete(&t->round, why));
@@ -177,7 +176,7 @@ static done_t bend_all(select_t *t, why_t *why) {
   bool other = false;
   if (!shape) return error_failed(why, "out of memory");
   for (int i = 0; i < n; i++)
-    if (round_fx(&t->round, i)->n_shape) shape[i] = bent(t, i);
+    if (t->candidates[i].n_shape) shape[i] = bent(t, i);
   for (int i = 0; i < n; i++) other = take_shape(t, i, shape[i]) || other;
   free(shape);
   if (!other) return DONE;

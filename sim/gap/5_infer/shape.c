@@ -47,7 +47,7 @@ static void take_bounds(polish_t *p) {
   int n, at = 0;
   const fx_param_t *const param = fx_use_params(&p->own->use, &n);
   const double *const shape = p->own->shape;
-  const int end = fx->n_shape - 1;
+  const int end = p->own->n_shape - 1;
   while (at < end && shape[at] < *number(p, SHAPE)) at++;
   const double here = shape[at];
   const double below = at > 0 ? shape[at - 1] : shape[0] * shape[0] / shape[1];
@@ -148,7 +148,7 @@ static done_t polish(polish_t *p, named_t *named, why_t *why) {
 }
 
 static bool has_shape(const candidate_t *c) {
-  return !c->in_file && c->use.fx->n_shape >= 2 && !candidate_is_numbered(c);
+  return !c->in_file && c->n_shape >= 2 && !candidate_is_numbered(c);
 }
 
 done_t shapes_refine(const candidates_t *c, set_t *s, const model_t *base, found_t *found, why_t *why) {

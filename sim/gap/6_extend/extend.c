@@ -123,7 +123,7 @@ static bool is_of_a_lot(const extend_job_t *job, const fx_t *fx, int k) {
 static void write_source(const extend_job_t *job, const fx_use_t *use, const named_t *named, int param,
                          FILE *out) {
   const fx_use_t *const in_file = model_fx(job->model, use->fx);
-  const bool shape = use->fx->n_shape && use->fx->shape_param == param;
+  const bool shape = fx_use_has_shape(use) && use->fx->shape_param == param;
   for (int k = 0; k < use->fx->n_size; k++) {
     if (use->fx->size[k].param != param) continue;
     const double error = stderr_of(job, use->fx, k);

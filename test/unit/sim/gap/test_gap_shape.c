@@ -55,6 +55,32 @@ TEST(gap_finds_a_ceilings_decay_between_those_that_it_tries) {
   CHECK_SHARE(t.shape_near, t.named, 0.95);
 }
 
+// An exponential that is fitted to it leaves a tail, which would be told as a small mass beside it.
+TEST(gap_finds_a_surface_in_the_form_in_which_it_acts) {
+  static const struct {
+    const char *form;
+    double p0, p1;
+  } row[] = {{"exponential", 0.5, 0.8}, {"inverse-square", 4.0, 0.5}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].form);
+    fx_use_t hidden = fx_use(fx_find("ceiling"));
+    fx_use_form(&hidden, curve_find(row[i].form));
+    hidden.p[0] = row[i].p0;
+    hidden.p[1] = row[i].p1;
+    gap_case_t *const c = diagnosed(&hidden);
+    const fx_use_t *const found = only_one(c, "ceiling");
+    if (found) {
+      CHECK_TEXT(found->form->name, row[i].form);
+      for (double radii = 1.0; radii < 4.0; radii += 1.0) {
+        const fx_place_t at = {.ceiling_gap_m = 0.02 * radii, .ground_gap_m = HUGE_VAL, .radius_m = 0.02};
+        const double want = hidden.fx->excess(&hidden, &at);
+        CHECK_NEAR(found->fx->excess(found, &at), want, 0.2 * want); // as short a flight tells no more
+      }
+    }
+    gap_case_free(c);
+  }
+}
+
 TEST(gap_leaves_the_number_of_a_rotor_a_number) {
   fx_use_t hidden = fx_use(fx_find("motor_damage"));
   hidden.p[0] = 3.0;
@@ -116,6 +142,24 @@ TEST(gap_finds_a_shape_between_those_that_are_tried) {
     CHECK_NEAR(bend_best(&g.round.score, &none, 1, 1.0), row[i].moves < 0 ? tried_V[1] : row[i].zero_V, 0.01);
     gap_rows_free(&g);
   }
+}
+
+TEST(gap_finds_no_shape_between_two_forms) {
+  gap_rows_t g;
+  const choice_t none = {.n = 0};
+  const char *const form[] = {"exponential", "inverse-square"};
+  gap_rows_make(&g, 4);
+  for (int k = 0; k < 2; k++) {
+    const int own = gap_rows_candidate(&g, "ceiling");
+    fx_use_form(&g.candidate[own].use, curve_find(form[k]));
+    g.candidate[own].use.p[0] = 0.0;
+    g.candidate[own].use.p[1] = 1.0 + k;
+    sag_by(gap_rows_column(&g, own, 0, CH_FZ), 3.7 + 0.25 * k);
+  }
+  sag_by(g.residual[CH_FZ], 3.82);
+  gap_rows_open(&g, 0, NULL);
+  for (int k = 0; k < 2; k++) CHECK_NEAR(bend_best(&g.round.score, &none, k, 1.0), 1.0 + k, 0.0);
+  gap_rows_free(&g);
 }
 
 // One nominal flight in four errs by its typical size, and holds so much of every number of what the others

@@ -75,8 +75,8 @@ static const struct {
     {"effect", VEHICLE "[[effect]]\nname = \"x\"\n",
      "v.toml:8: name: unknown effect `x`; allowed: " ALL_EFFECTS},
     {"form", VEHICLE "[[effect]]\nname = \"ceiling\"\nform = \"x\"\n",
-     "v.toml:9: form: effect ceiling: unknown form `x`; allowed: cheeseman-bennett, exponential, table, "
-     "square-root"},
+     "v.toml:9: form: effect ceiling: unknown form `x`; allowed: cheeseman-bennett, exponential, "
+     "inverse-square, table, square-root"},
     {"effect key", VEHICLE "[[effect]]\nname = \"ceiling\"\nCc = 1\n",
      "v.toml:9: Cc: effect ceiling, form exponential: unknown key `Cc`; allowed: form, Ca 0 to 5, Cb 0.01 "
      "to 50, each 0 to 1"},
@@ -181,8 +181,8 @@ TEST(effect_of_a_command_line_is_read_or_refused) {
       {"ceiling:Ca=x", "effect ceiling: Ca: not a number: `x`"},
       {"ceiling:Ca=nan", "effect ceiling: Ca: not a number: `nan`"},
       {"ceiling:Ca=-1", "effect ceiling: Ca = -1 is out of range; allowed: 0 to 5"},
-      {"ceiling:form=linear",
-       "effect ceiling: unknown form `linear`; allowed: cheeseman-bennett, exponential, table, square-root"},
+      {"ceiling:form=linear", "effect ceiling: unknown form `linear`; allowed: cheeseman-bennett, "
+                              "exponential, inverse-square, table, square-root"},
       {"ceiling:form=table", "effect ceiling, form table: no points; file=FILE.csv is needed (columns "
                              "distance_over_radius, ratio)"},
       {"ceiling:file=x.csv", "effect ceiling, form exponential: unknown key `file`; allowed: form, Ca 0 to "
