@@ -3,6 +3,7 @@
 #include "base/cpu_time.h"
 #include "base/lane.h"
 #include "base/made.h"
+#include "base/threads.h"
 #include "bench_gap.h"
 #include "body/body.h"
 #include "flight/scenario.h"
@@ -230,6 +231,7 @@ static done_t all(why_t *why) {
 int main(int argc, char **argv) {
   const char *const word = argc == 2 ? argv[1] : "";
   why_t why;
+  threads_sleep(argv);
   if (strcmp(word, "--version") == 0) {
     made_version("bench");
     return 0;

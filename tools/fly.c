@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "base/option.h"
 #include "base/stream.h"
+#include "base/threads.h"
 #include "base/whole_file.h"
 #include "crazyflie/usd_deck.h"
 #include "drone/drone.h"
@@ -368,6 +369,7 @@ static done_t run(order_t *order, output_t *out, int argc, char **argv, why_t *w
   if (order->replay) return replay_report(order->replay, &order->request, why);
   if (!order->scenario && !order->commands && !order->merge) return DONE;
   if (order->seeds == 0) order->seeds = 1;
+  if (many(order)) threads_sleep(argv); // a single flight would start for a tenth of its time
   TRY(open_output(order, out, why));
   if (order->merge) return merge(order, out, why);
   if (order->commands) return fly_commands(order, out, why);

@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "base/number.h"
 #include "base/option.h"
+#include "base/threads.h"
 #include "base/whole_file.h"
 #include "gap/6_extend/extend.h"
 #include "gap/8_report/report.h"
@@ -239,6 +240,7 @@ int main(int argc, char **argv) {
   static output_t out;
   why_t why = {""};
   bool begun = false;
+  threads_sleep(argv);
   signal(SIGPIPE, SIG_IGN); // a closed pipe is then an error like any other: no partial file stays
   done_t status = take_order(&order, argc, argv, &why);
   if (isatty(STDERR_FILENO)) order.study.progress = progress;

@@ -1,6 +1,7 @@
 // main.c - runs an exam of many sets and prints the marks: main FIRST_SEED SETS [lines [KIND]], or, with
 // users' logs, main users FIRST_SEED SETS [lines [KIND]].
 #include "base/made.h"
+#include "base/threads.h"
 #include "exam/exam.h"
 #include "exam/users.h"
 
@@ -144,6 +145,7 @@ static void print_marks(const marks_t *m) {
 
 int main(int argc, char **argv) {
   static exam_set_t sets[SETS_MAX];
+  threads_sleep(argv);
   if (argc == 2 && strcmp(argv[1], "--version") == 0) {
     made_version("exam");
     return 0;

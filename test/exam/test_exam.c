@@ -121,6 +121,7 @@ TEST(numbers_hold_that_are_multiplied_by_the_logs_errors) {
     exam_kind_t kind;
     unsigned long seed;
   } row[] = {
+      {"ground", EXAM_TWO, 52092},
       {"ground", EXAM_TWO, 126010},
       {"ground", EXAM_TWO, 126130},
   };

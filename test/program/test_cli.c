@@ -46,6 +46,29 @@ TEST(fly_says_what_it_can_do) {
   }
 }
 
+// Built without OpenMP they have one thread, and nothing is told.
+TEST(programs_of_many_threads_sleep_while_these_wait) {
+  static const struct {
+    const char *said, *line, *want;
+  } row[] = {
+      {"", "gap --version", "'0'"},
+      {"", "fly close-flight --integrator rk4 --from 1 --to 2", "'0'"},
+      {"GOMP_SPINCOUNT=7", "gap --version", "'7'"},
+      {"OMP_WAIT_POLICY=active", "gap --version", "'30000000000'"},
+  };
+  static const char *const told = "GOMP_SPINCOUNT = ", *const unset =
+                                                           "env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT";
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s %s", row[i].said, row[i].line);
+    char line[200], text[8000];
+    snprintf(line, sizeof line, "%s %s OMP_DISPLAY_ENV=verbose %s", unset, row[i].said, row[i].line);
+    CHECK(program_run(line, STREAM_ERROR, text, sizeof text) == 0);
+    const char *last = text;
+    for (const char *at = text; (at = strstr(at, told));) last = at += strlen(told);
+    CHECK(last == text ? !strstr(text, "OMP_") : strncmp(last, row[i].want, strlen(row[i].want)) == 0);
+  }
+}
+
 TEST(fly_changes_the_plant_and_not_the_controller_by_an_effect) {
   // --effect changes the plant only. The controller keeps its theoretical curve, and so overestimates the
   // weaker plant as in figure A.14, and is slower.

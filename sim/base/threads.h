@@ -1,0 +1,12 @@
+// threads.h - how threads that share a program's work wait for one another.
+#ifndef SIM_BASE_THREADS_H
+#define SIM_BASE_THREADS_H
+
+// Lets them sleep while they wait. First of all in main(); argv: as main() got it. By default gcc's OpenMP
+// lets a thread that waits turn on the spot for some milliseconds. Beside other work it holds up the very
+// thread that it waits for: a diagnosis then took five times as long on two cores. It is told otherwise by
+// the environment, and reads that before main(): so the program starts itself anew, once. Nothing happens
+// where the environment says already how to wait, or where a program cannot be started anew.
+void threads_sleep(char **argv);
+
+#endif
