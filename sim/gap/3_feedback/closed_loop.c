@@ -7,9 +7,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define TILT_MOST 0.35 // largest tilt gain over the square of the rate gain: more overshoots
-#define LEAD_MOST 0.5  // largest lead: acts as so much more inertia; beyond it lag and delay make a loop ring
-#define YAW_GAIN  5.0  // 1/s: as the Crazyflie's, whose yaw is weak
+#define TILT_MOST  0.35 // largest tilt gain over the square of the rate gain: more overshoots
+#define LEAD_MOST  0.5 // largest lead: acts as so much more inertia; beyond it lag and delay make a loop ring
+#define TILT_LEAST 0.1 // least of the same, up to SWIFT_GAIN: with less it does not hold its place
+#define SWIFTER    2.0 // a pilot rings from a gain on, and falls over from twice as much
+// Share of what commands change by. A pilot that answers rate and tilt alone, as PyFlyt's PID, has 0.75 to
+// 0.98 where its motors' noise turns the vehicle. That is the log in which control's answer looks most like a
+// flat thrust curve, and gains that were cut to what does not ring made a third of it: with nothing hidden,
+// thrust_slope was named. The Crazyflie's INDI, which answers accelerations too, has 0.7 at most, and four
+// times its gain is read.
+#define BELIEVED 0.75
+#define YAW_GAIN 5.0 // 1/s: as the Crazyflie's, whose yaw is weak; the least
 // Where rows are fewer than commands, no single time shift of the logged commands fits both those that turn
 // the vehicle and those that are held between two looks at place and speed, and in a manoeuvre too small a
 // gain is found (swiftness.c). Then every odd pilot is at least as swift as the Crazyflie's INDI (24 1/s,
@@ -61,7 +69,7 @@ static double larger_noise(const set_t *s, int a, int b) {
 // --- gains: least squares of the increments of a command on those of its inputs ---------------------------
 
 typedef struct {
-  double aa, ab, bb, ac, bc;
+  double aa, ab, bb, ac, bc, cc;
 } two_t;
 
 static void two_add(two_t *t, double a, double b, double c) {
@@ -70,6 +78,7 @@ static void two_add(two_t *t, double a, double b, double c) {
   t->bb += b * b;
   t->ac += a * c;
   t->bc += b * c;
+  t->cc += c * c;
 }
 
 // Solves c = -x a - y b; NaN where a and b are collinear.
@@ -78,6 +87,11 @@ static void two_solve(const two_t *t, double *x, double *y) {
   const bool good = det > 1e-9 * t->aa * t->bb;
   *x = good ? -(t->ac * t->bb - t->bc * t->ab) / det : (double)NAN;
   *y = good ? -(t->bc * t->aa - t->ac * t->ab) / det : (double)NAN;
+}
+
+// True if c = -x a - y b explains nearly all of c: then gains x and y are those that flew.
+static bool explains(const two_t *t, double x, double y) {
+  return -(x * t->ac + y * t->bc) > BELIEVED * t->cc;
 }
 
 static d3_t tilt_of(const grid_point_t *p) {
@@ -114,7 +128,7 @@ static double yaw_at_once(const model_t *m) {
 }
 
 static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
-  two_t roll = {0}, pitch = {0}, climb = {0};
+  two_t roll = {0}, pitch = {0}, yaw = {0}, climb = {0};
   const grid_t *g = &s->grid[0];
   for (int j = 2; j < g->n; j++) {
     const grid_point_t *p = &g->point[j], *q = &g->point[j - 2];
@@ -124,16 +138,21 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
     const d3_t rate = d3_sub(p->rate_b_radps, q->rate_b_radps), tilt = d3_sub(tilt_of(p), tilt_of(q));
     two_add(&roll, rate.x, tilt.x, turn.x);
     two_add(&pitch, rate.y, tilt.y, turn.y);
+    two_add(&yaw, rate.z, 0.0, turn.z);
     two_add(&climb, p->seen_w_mps.z - q->seen_w_mps.z, p->seen_w_m.z - q->seen_w_m.z, lift - lift_before);
   }
   double tilt[2];
   two_solve(&roll, &w->rate_gain[0], &tilt[0]);
   two_solve(&pitch, &w->rate_gain[1], &tilt[1]);
   two_solve(&climb, &w->climb_gain, &w->height_gain);
+  if (explains(&roll, w->rate_gain[0], tilt[0]) && explains(&pitch, w->rate_gain[1], tilt[1]))
+    w->swift = clamp(fmin(w->rate_gain[0], w->rate_gain[1]) / w->rate_gain_most, 1.0, SWIFTER);
+  w->rate_gain_most *= w->swift;
   for (int i = 0; i < 2; i++) w->rate_gain[i] = clamp(w->rate_gain[i], RATE_GAIN_LEAST, w->rate_gain_most);
-  w->rate_gain[2] = fmin(YAW_GAIN, w->rate_gain_most / yaw_at_once(m));
-  const double least = fmin(w->rate_gain[0], w->rate_gain[1]);
-  w->tilt_gain = clamp(fmax(tilt[0], tilt[1]), 0.1 * least * least, TILT_MOST * least * least);
+  const double yaw_most = w->rate_gain_most / yaw_at_once(m), turns = -yaw.ac / yaw.aa;
+  w->rate_gain[2] = fmin(explains(&yaw, turns, 0.0) ? fmax(turns, YAW_GAIN) : YAW_GAIN, yaw_most);
+  const double least = fmin(w->rate_gain[0], w->rate_gain[1]), slow = fmin(least, SWIFT_GAIN);
+  w->tilt_gain = clamp(fmax(tilt[0], tilt[1]), TILT_LEAST * slow * slow, TILT_MOST * least * least);
   w->climb_gain = clamp(w->climb_gain, 2.0, 8.0);
   w->height_gain =
       clamp(w->height_gain, 0.1 * w->climb_gain * w->climb_gain, 0.3 * w->climb_gain * w->climb_gain);
@@ -297,7 +316,7 @@ double closed_loop_range_m(const set_t *s, const model_t *m, const double *resid
 
 closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
                              double *const residual[CHANNELS]) {
-  closed_loop_t w = {.flown_by = by, .unread = grid_is_slow(&s->grid[0])};
+  closed_loop_t w = {.flown_by = by, .unread = grid_is_slow(&s->grid[0]), .swift = 1.0};
   const gap_flight_t *f = s->grid[0].flight;
   noise3(s, SIG_AX, w.acc_mps2);
   noise3(s, SIG_GX, w.gyro_radps);

@@ -204,9 +204,10 @@ double pilot_gain_most(double motor_tau_s, double delay_s, double period_s) {
 }
 
 void pilot_tame(nominal_flight_t *f) {
-  const double most =
-      pilot_gain_most(f->body.rigid.motor_tau_s, f->body.plant.delay_s, pilot_period_s(f->w->flown_by));
   closed_loop_t *const w = &f->own;
+  const double most =
+      larger(w->swift, 1.0) *
+      pilot_gain_most(f->body.rigid.motor_tau_s, f->body.plant.delay_s, pilot_period_s(w->flown_by));
   for (int i = 0; i < 2; i++) w->rate_gain[i] = smaller(w->rate_gain[i], most);
   const double least = smaller(w->rate_gain[0], w->rate_gain[1]);
   w->tilt_gain = smaller(w->tilt_gain, 0.25 * least * least);
