@@ -55,6 +55,21 @@ TEST(gap_says_in_one_line_why_it_cannot_use_what_it_is_given) {
   }
 }
 
+// Another simulator's controller answers each step of its set point by a kick of two rows. In flight is what
+// carries more than a share of the largest thrust, and the kicks alone did.
+TEST(gap_reads_commands_that_kick) {
+  char text[4000];
+  CHECK(gap_logs_fly("odd", 1, NULL));
+  CHECK(program_run(
+            "sed 's/^thrust_max_N.*/thrust_max_N = 6/' $S/room.toml >$S/strong.toml; "
+            "awk 'BEGIN {FS = OFS = \",\"} NR > 1 && NR % 150 < 2 {for (i = 18; i <= 21; i++) $i = 1.2} 1' "
+            "$S/odd0.csv >$S/kicks.csv; "
+            "gap --vehicle $S/strong.toml --columns tools/columns/fly.toml $S/kicks.csv 2>&1",
+            STREAM_OUTPUT, text, sizeof text) == 0);
+  ROW("%s", text);
+  CHECK(strstr(text, " s in the air") != NULL);
+}
+
 // Another simulator's hover: its controller knows the truth and settles, and only the logged states have
 // noise.
 TEST(gap_reads_a_hover_in_which_the_commands_stand_still) {

@@ -14,7 +14,8 @@
 #define WINDOWS_MIN 6    // least number of windows for a slope with a standard error
 #define CLEARLY     4.0  // standard errors
 #define OTHER_SCALE 0.02 // as much as an effect of the right form misfits (CANDIDATES_MISFIT)
-#define FLIES_AT    0.3  // with more than this share of the largest thrust it flies
+#define BLOCK_S     0.2  // over which commands are averaged: some kick at a set point's step, or chatter
+#define FLIES_AT    0.3  // with more than this share of the largest block's thrust it flies
 #define RANGE_M     0.02 // a range sensor reads more than this at least once
 #define SHARE_MIN   0.65 // of the other motors' mean: outside, a column has another unit or half the commands
 #define SHARE_MAX   1.5
@@ -48,6 +49,7 @@ static done_t check_acceleration(const gap_flight_t *f, const log_rows_t *rows, 
 
 typedef struct {
   double n, gg, mg, mm, mean, moved_mean;
+  double all_gg, all_mg; // over all windows
   // For a scale that is nearly right: sums with the mean difference (offset) removed, over the windows in
   // which the driver moves, in which the stream moves, and in which either does.
   double offset, driven_gg, driven_mg, moved_mg, moved_mm, left;
@@ -100,7 +102,9 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
         if (pass == 0) slope[k].offset += (w.driven[k] - w.moved[k] - slope[k].offset) / n;
         const double g = w.driven[k] - slope[k].mean, moved = w.moved[k];
         const double beside = moved - common(slope[k].moved_mean, slope[k].mean);
-        if (pass == 0 || (fabs(g) < drive->least && fabs(beside) < drive->least)) continue;
+        if (pass == 0) continue;
+        slope[k].all_gg += g * g, slope[k].all_mg += beside * g;
+        if (fabs(g) < drive->least && fabs(beside) < drive->least) continue;
         slope[k].n += 1.0;
         slope[k].gg += g * g, slope[k].mg += beside * g, slope[k].mm += beside * beside;
         const double d = w.driven[k] - slope[k].offset;
@@ -114,6 +118,14 @@ static void slopes(const gap_flight_t *f, const drive_t *drive, slope_t slope[3]
 // True if a line explains more than half of the squares.
 static bool goes_along(const slope_t *s) {
   return s->mg * s->mg > 0.5 * s->mm * s->gg;
+}
+
+// True if the slope is sure to be out of bounds. Where the driver hardly moves, the windows in which the
+// stream does are those in which its noise adds to that: over all windows the slope is no steeper than the
+// true one.
+static bool is_off(const slope_t *s) {
+  const double b = s->mg / s->gg, error = CLEARLY * sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
+  return b + error < SLOPE_MIN || (b - error > SLOPE_MAX && s->all_mg > SLOPE_MAX * s->all_gg);
 }
 
 // Writes what would fit, as the end of a message: another unit of either stream, or the other sign of one.
@@ -158,15 +170,13 @@ static done_t check_drive(gap_flight_t *f, const log_rows_t *rows, const drive_t
     const slope_t *const s = &slope[k];
     const signal_id_t column = (signal_id_t)((int)drive->driver + k);
     if (s->n < WINDOWS_MIN || !(s->gg > 0.0)) continue;
-    const double b = s->mg / s->gg;
-    const double stderr_b = sqrt(fmax(0.0, s->mm - b * s->mg) / (s->n * s->gg));
-    if (b + CLEARLY * stderr_b >= SLOPE_MIN && b - CLEARLY * stderr_b <= SLOPE_MAX) continue;
+    if (!is_off(s)) continue;
     char text[FITS] = "";
     what_fits(rows, column, (signal_id_t)((int)drive->stream + k), s, text);
     return table_refuse(&rows->table, 0, rows->at[column], why,
                         "the %s %s %.3g times as far along axis %c as the %s says over the whole flight; "
                         "allowed: 0.33 to 3%s",
-                        drive->what, drive->moves, b, 'x' + k, drive->by, text);
+                        drive->what, drive->moves, s->mg / s->gg, 'x' + k, drive->by, text);
   }
   note_scale(f, drive, slope);
   return DONE;
@@ -192,19 +202,44 @@ static double lift_N(const gap_flight_t *f, const model_t *vehicle, bool by_spee
   return by_speeds ? thrust_of_speeds_N(f->v, vehicle, i) : f->v[SIG_THRUST][i];
 }
 
-// Returns the mean in flight of thrust over mass times specific force (g if not logged); NaN: too short.
-static double lift_ratio(const gap_flight_t *f, const model_t *vehicle, bool by_speeds) {
-  double most_N = 0.0, sum = 0.0;
-  int n = 0;
-  for (int i = 0; i < f->n; i++) most_N = fmax(most_N, lift_N(f, vehicle, by_speeds, i));
-  for (int i = 0; i < f->n; i++) {
+static int block_samples(const gap_flight_t *f) {
+  return (int)fmax(1.0, round(BLOCK_S * f->rate_Hz));
+}
+
+// Means over a block of samples, or over those of it that have both; n: how many have.
+typedef struct {
+  int n;
+  double thrust_N, acc_mps2;
+} lift_t;
+
+static lift_t lift_over(const gap_flight_t *f, const model_t *vehicle, bool by_speeds, int from) {
+  const int end = from + block_samples(f) < f->n ? from + block_samples(f) : f->n;
+  lift_t mean = {.n = 0};
+  for (int i = from; i < end; i++) {
     const double thrust_N = lift_N(f, vehicle, by_speeds, i);
     const double acc_mps2 = has(f->v, FORCE) ? d3_norm(vector_at(f->v, SIG_AX, i)) : G_MPS2;
-    if (!(thrust_N > FLIES_AT * most_N) || !(acc_mps2 > 0.2 * G_MPS2)) continue;
-    sum += thrust_N / (vehicle->mass_kg * acc_mps2);
-    n++;
+    if (!isfinite(thrust_N + acc_mps2)) continue;
+    mean.n++;
+    mean.thrust_N += (thrust_N - mean.thrust_N) / mean.n;
+    mean.acc_mps2 += (acc_mps2 - mean.acc_mps2) / mean.n;
   }
-  return n >= MEAN_OF ? sum / n : (double)NAN;
+  return mean;
+}
+
+// Returns thrust over mass times specific force (g if not logged), both means in flight; NaN: too short.
+static double lift_ratio(const gap_flight_t *f, const model_t *vehicle, bool by_speeds) {
+  double most_N = 0.0, thrust = 0.0, takes = 0.0;
+  int n = 0;
+  for (int i = 0; i < f->n; i += block_samples(f))
+    most_N = fmax(most_N, lift_over(f, vehicle, by_speeds, i).thrust_N);
+  for (int i = 0; i < f->n; i += block_samples(f)) {
+    const lift_t now = lift_over(f, vehicle, by_speeds, i);
+    if (!(now.thrust_N > FLIES_AT * most_N) || !(now.acc_mps2 > 0.2 * G_MPS2)) continue;
+    thrust += now.n * now.thrust_N;
+    takes += now.n * vehicle->mass_kg * now.acc_mps2;
+    n += now.n;
+  }
+  return n >= MEAN_OF ? thrust / takes : (double)NAN;
 }
 
 static done_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t *why) {
@@ -218,22 +253,36 @@ static done_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t 
       columns_hint(&rows->columns, SIG_W1, sqrt(ratio), sqrt(0.2), sqrt(5.0), text));
 }
 
-static double sum_of_motors(const gap_flight_t *f, signal_id_t first, int i) {
-  return f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
+// Adds up each motor over a block of samples, and returns the mean of their sum; n: samples that have all
+// four.
+static double sum_of_motors(const gap_flight_t *f, signal_id_t first, int from, double sum[ROTORS], int *n) {
+  const int end = from + block_samples(f) < f->n ? from + block_samples(f) : f->n;
+  double all = 0.0;
+  for (int i = from; i < end; i++) {
+    const double now = f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
+    if (!isfinite(now)) continue;
+    for (int k = 0; k < ROTORS; k++) sum[k] += f->v[(int)first + k][i];
+    all += now;
+    ++*n;
+  }
+  return *n ? all / *n : 0.0;
 }
 
 // Refuses a motor whose mean in flight differs too much from the others': no trim is so uneven.
 static done_t check_shares(const gap_flight_t *f, const log_rows_t *rows, signal_id_t first, why_t *why) {
   double most = 0.0, sum[ROTORS] = {0.0}, all = 0.0;
   int n = 0;
-  for (int i = 0; i < f->n; i++) most = fmax(most, sum_of_motors(f, first, i));
-  for (int i = 0; i < f->n; i++) {
-    const double now = sum_of_motors(f, first, i);
-    if (!(now > FLIES_AT * most)) continue;
-    for (int k = 0; k < ROTORS; k++) sum[k] += f->v[(int)first + k][i];
-    all += now;
-    n++;
-  }
+  for (int pass = 0; pass < 2; pass++)
+    for (int i = 0; i < f->n; i += block_samples(f)) {
+      double own[ROTORS] = {0.0};
+      int here = 0;
+      const double now = sum_of_motors(f, first, i, own, &here);
+      if (pass == 0) most = fmax(most, now);
+      if (pass == 0 || !(now > FLIES_AT * most)) continue;
+      for (int k = 0; k < ROTORS; k++) sum[k] += own[k];
+      all += here * now;
+      n += here;
+    }
   for (int k = 0; k < ROTORS && n >= MEAN_OF; k++) {
     const double share = (ROTORS - 1) * sum[k] / (all - sum[k]);
     if (share >= SHARE_MIN && share <= SHARE_MAX) continue;

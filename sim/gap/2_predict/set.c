@@ -91,9 +91,10 @@ static done_t no_rows(const grid_t *g, why_t *why) {
   if (2 * near > g->n)
     return error_set(
         why, "%s: on the floor, or at the vehicle file's ceiling or above it; allowed: free flight", name);
-  return error_set(
-      why, "%s: no instant at which motors carry it, free of floor and ceiling, with every signal there",
-      name);
+  return error_set(why,
+                   "%s: no instant at which motors carry it, none at its limit, free of floor and ceiling, "
+                   "with every signal there",
+                   name);
 }
 
 done_t set_make(set_t *s, grid_t *grid, int n, why_t *why) {

@@ -254,7 +254,21 @@ TEST(gap_tells_of_a_scale_that_attitude_or_velocity_contradict) {
 // A hover that turns about the vertical, twice one way and back: at a steady place, or on a circle of 0.3 m
 // about which it goes once in 3 s, with an accelerometer that errs by a steady 0.5 m/s2 forwards.
 // Spoilt: the accelerometer's axes; the velocity, but for noise; nothing, but it turns evenly and slowly.
-typedef enum { AS_IT_IS, EXCHANGED, DEAD, EVENLY } spoilt_t;
+// Or it turns to and fro more slowly than its attitude errs.
+typedef enum { AS_IT_IS, EXCHANGED, DEAD, EVENLY, SLOWLY } spoilt_t;
+static void turn_at(double t_s, spoilt_t spoilt, double noise, double *yaw, double *rate) {
+  *yaw = 4.0 * 3.14159265 * sin(0.3 * t_s) + 0.001 * sin(50.0 * t_s);
+  *rate = 1.2 * 3.14159265 * cos(0.3 * t_s) + 0.05 * cos(50.0 * t_s);
+  if (spoilt == EVENLY) {
+    *yaw = 0.12 * (t_s - 10.0 * (1.0 - exp(-0.1 * t_s))) + 0.001 * sin(50.0 * t_s);
+    *rate = 0.12 * (1.0 - exp(-0.1 * t_s)) + noise;
+  }
+  if (spoilt == SLOWLY) {
+    *yaw = 0.08 * sin(0.3 * t_s) + 0.0048 * sin(41.0 * t_s * t_s);
+    *rate = 0.024 * cos(0.3 * t_s) + 0.003 * sin(53.0 * t_s * t_s);
+  }
+}
+
 static done_t read_yaw(double circle_m, spoilt_t spoilt, why_t *why) {
   const columns_t columns = flight_csv_columns();
   model_t vehicle;
@@ -267,12 +281,8 @@ static done_t read_yaw(double circle_m, spoilt_t spoilt, why_t *why) {
   for (int i = 0; i < 5000; i++) {
     const double t_s = 0.01 * i, w = 2.0 * 3.14159265 / 3.0, at = w * t_s,
                  noise = 0.002 * sin(37.0 * t_s * t_s);
-    const bool evenly = spoilt == EVENLY;
-    const double yaw =
-        (evenly ? 0.12 * (t_s - 10.0 * (1.0 - exp(-0.1 * t_s))) : 4.0 * 3.14159265 * sin(0.3 * t_s)) +
-        0.001 * sin(50.0 * t_s);
-    const double rate = evenly ? 0.12 * (1.0 - exp(-0.1 * t_s)) + noise
-                               : 1.2 * 3.14159265 * cos(0.3 * t_s) + 0.05 * cos(50.0 * t_s);
+    double yaw, rate;
+    turn_at(t_s, spoilt, noise, &yaw, &rate);
     const double x = circle_m * cos(at), y = circle_m * sin(at), a_x = -w * w * x, a_y = -w * w * y;
     double v[FC_COLUMNS];
     flight_csv_values(t_s, v);
@@ -301,6 +311,7 @@ TEST(gap_refuses_no_hover_for_an_accelerometer_that_errs_while_it_turns) {
   CHECK_OK(read_yaw(0.0, AS_IT_IS, &why));
   CHECK_OK(read_yaw(0.3, AS_IT_IS, &why));
   CHECK_OK(read_yaw(0.3, EVENLY, &why)); // the attitude was told to turn 4.93 times as far as the gyro says
+  CHECK_OK(read_yaw(0.3, SLOWLY, &why)); // it was told to turn 7.81 times as far
   for (spoilt_t spoilt = EXCHANGED; spoilt <= DEAD; spoilt++) {
     ROW("%s", spoilt == DEAD ? "a velocity that is noise" : "axes that are exchanged");
     CHECK_STATUS(BAD_INPUT, read_yaw(0.3, spoilt, &why));
