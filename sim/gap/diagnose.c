@@ -174,7 +174,7 @@ static done_t look_for_more(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   TRY(unknown_scan(&d->fit, &d->extended, d->residual, &scan, why));
   unknown_judge(&scan, d->nominal.scan, d->nominal.n, d->nominal.misfit, &d->left);
   TRY(unknown_measure(&d->fit, &d->extended, d->residual, &d->left.cell, why));
-  d->unknown = d->nominal_flew && d->left.found;
+  d->unknown = d->nominal_flew && d->left.found && unknown_is_sure(&d->left.cell);
   if (!d->unknown) return DONE;
   for (int i = 0; i < GROUPS; i++) {
     const cell_t *const cell = unknown_by_flight(&scan, &d->left, i);

@@ -192,7 +192,8 @@ static void pulses_in(const look_t *l, int ch, cell_t *cell) {
                      .size = c->sd * peak.whole / sqrt(p.energy),
                      .statistic = fabs(peak.largest) / peak.scatter,
                      .explained = peak.alike,
-                     .is_pulse = true};
+                     .is_pulse = true,
+                     .log = l->s->grid[w.r->flight[peak.at]].flight->name};
   }
 }
 

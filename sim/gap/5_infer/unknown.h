@@ -10,8 +10,10 @@
 #define SIM_GAP_5_INFER_UNKNOWN_H
 
 #include "gap/2_predict/lines.h"
+#include "gap/5_infer/limits.h"
 #include "gap/5_infer/whiten.h"
 #include "gap/5_infer/windows.h"
+#include <math.h>
 
 // --- the residual without what depends on anything --------------------------------------------------------
 
@@ -79,6 +81,12 @@ void unknown_judge(const scan_t *log, const scan_t *nominal, int n, const double
 // by a part of a bin, take a third of what is crossed in half a second. FAILED: no memory.
 MUST_CHECK done_t unknown_measure(const set_t *s, const model_t *m, double *const residual[CHANNELS],
                                   cell_t *cell, why_t *why);
+
+// False if the size may as well be none. A look weighs white rows, in which a single kick counts much; where
+// the rows inside are on the whole like those outside, nothing lies there.
+static inline bool unknown_is_sure(const cell_t *cell) {
+  return fabs(cell->size) > SCORE_ERRORS * cell_error(cell);
+}
 
 // Sets, by channel, what flights differ by in a residual where that is beyond its bound (as above; by n
 // nominal flights, 1 or more); elsewhere its statistic is 0. FAILED: no memory.

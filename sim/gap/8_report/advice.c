@@ -36,10 +36,11 @@ static void advise_place(report_t *r, const cell_t *cell) {
   char where[REPORT_PLACE];
   report_place(cell, where);
   if (cell->along == COORDINATE_TIME)
-    note(&r->to_do,
-         "fly: the same again, and see whether it comes %s once more; what happens once may be a gust, a "
-         "touch, or commands between two rows",
-         where);
+    note(
+        &r->to_do,
+        "fly: the same again, and see whether what is %s comes once more; what happens once may be a gust, a "
+        "touch, or commands between two rows",
+        where);
   else if (cell->along == NOWHERE)
     note(&r->to_do, "fly: the same again with another pilot or other gains, and see whether it stays %s",
          where);

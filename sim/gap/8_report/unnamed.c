@@ -1,12 +1,17 @@
 // unnamed.c - what the report says of a residual that no name explains.
 #include "gap/8_report/report.h"
 
+#include "base/folder.h"
 #include <math.h>
 
 const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
   text[0] = '\0';
   if (c->along == BY_FLIGHT) {
     text_add(text, REPORT_PLACE, "from flight to flight");
+    return text;
+  }
+  if (c->is_pulse) {
+    text_add(text, REPORT_PLACE, "at time %.2f to %.2f s of %s", c->from, c->to, folder_file(c->log));
     return text;
   }
   text_add(text, REPORT_PLACE, "at %s %.3g to %.3g %s", c->coordinate, c->from, c->to, c->unit);

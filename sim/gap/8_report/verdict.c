@@ -105,6 +105,7 @@ static void add_place(cJSON *o, const cell_t *c) {
   add(o, {.key = "channel", .text = gap_channel[c->channel]},
       {.key = "axes", .text = c->world ? "world" : "body"}, {.key = "coordinate", .text = c->coordinate},
       {.key = "from", .number = c->from}, {.key = "to", .number = c->to});
+  if (c->is_pulse) cJSON_AddStringToObject(o, "log", c->log);
   if (!c->is_patch) return;
   add(o, {.key = "y_from", .number = c->y_from_m}, {.key = "y_to", .number = c->y_to_m});
 }

@@ -65,7 +65,9 @@ TEST(gap_advises_to_fly_where_something_is_but_not_when) {
       {{.along = COORDINATE_HEIGHT, .coordinate = "height", .unit = "m", .from = 0.4, .to = 0.6},
        "fly: the same again with more time at height 0.4 to 0.6 m, and as much beside it"},
       {{.along = COORDINATE_TIME, .coordinate = "time", .unit = "s", .from = 3.0, .to = 3.2},
-       "fly: the same again, and see whether it comes at time 3 to 3.2 s once more; "},
+       "fly: the same again, and see whether what is at time 3 to 3.2 s comes once more; "},
+      {{.along = COORDINATE_TIME, .from = 3.0, .to = 3.04, .is_pulse = true, .log = "/folder/two.csv"},
+       "fly: the same again, and see whether what is at time 3.00 to 3.04 s of two.csv comes once more; "},
       {{.along = NOWHERE, .coordinate = "frequency", .unit = "Hz", .from = 2.4, .to = 2.6},
        "fly: the same again with another pilot or other gains, and see whether it stays at frequency "
        "2.4 to 2.6 Hz"},

@@ -35,6 +35,21 @@ TEST(gap_measures_each_look_by_the_same_in_nominal_flights) {
   CHECK(!judged.found);
 }
 
+// Of a torque ratio that 60 rows a second do not show, "+0.6 +- 0.6 m/s2" was told at a place.
+TEST(gap_tells_nothing_of_a_size_within_two_errors) {
+  static const struct {
+    cell_t cell;
+    bool sure;
+  } row[] = {{{.size = 0.603, .error = 0.6, .statistic = 40.0}, false},
+             {{.size = -1.19, .error = 0.6, .statistic = 40.0}, false},
+             {{.size = -1.21, .error = 0.6, .statistic = 40.0}, true},
+             {{.size = 0.6, .statistic = 12.0}, true}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%g +- %g", row[i].cell.size, cell_error(&row[i].cell));
+    CHECK(unknown_is_sure(&row[i].cell) == row[i].sure);
+  }
+}
+
 // In the nominal flights one look finds ten times what is usual: that bounds chance, and says nothing about
 // what a right form with other numbers leaves, 0.02 of what is typical: of that size 0.12 is told, as of
 // names. Chance is the root of F(1, 10)'s upper hundredth, 3.17, times 42.
