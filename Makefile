@@ -178,8 +178,8 @@ $(B)/sim/flight/lanes_fields.o $(B)/sim/flight/lanes_state.o $(B)/sim/flight/lan
 $(B)/sim/flight/lanes_ms_512.o: sim/flight/lanes_ms.cpp $(B)/flags | setup
 	$(compile)
 LANES = -DLANES_TABLE='"lanes_table.inc"' -std=c++20 -fno-math-errno -Wno-pedantic -Wno-shadow -Wno-missing-field-initializers -Wno-unused-function $(AVX2)
-# They fly many vehicles at once, or form many columns.
-$(B)/sim/flight/many.o $(B)/sim/gap/%.o $(B)/sim/body/side_by_side.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o $(B)/test/unit/sim/gap/test_gap_threads.o: MANY = $(OMP) $(FLIGHT_FLAGS)
+# They fly many vehicles at once, or form many columns; or say how threads wait.
+$(B)/sim/base/threads.o $(B)/sim/flight/many.o $(B)/sim/gap/%.o $(B)/sim/body/side_by_side.o $(B)/test/exam/main.o $(B)/test/exam/users_main.o $(B)/test/faults/test_faults.o $(B)/test/unit/sim/gap/test_gap_threads.o: MANY = $(OMP) $(FLIGHT_FLAGS)
 
 define compile
 @$(begin)

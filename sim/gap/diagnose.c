@@ -172,9 +172,14 @@ static done_t look_for_more(const diagnose_job_t *job, diagnosis_t *d, why_t *wh
   TRY(find_residual(d, &d->extended, why));
   scan_t scan;
   TRY(unknown_scan(&d->fit, &d->extended, d->residual, &scan, why));
-  unknown_judge(&scan, d->nominal.scan, d->nominal.n, d->nominal.misfit, &d->left);
-  TRY(unknown_measure(&d->fit, &d->extended, d->residual, &d->left.cell, why));
-  d->unknown = d->nominal_flew && d->left.found && unknown_is_sure(&d->left.cell);
+  for (bool sure = false; !sure;) {
+    unknown_judge(&scan, d->nominal.scan, d->nominal.n, d->nominal.misfit, &d->left);
+    const cell_t cell = d->left.cell;
+    TRY(unknown_measure(&d->fit, &d->extended, d->residual, &d->left.cell, why));
+    sure = !d->left.found || unknown_is_sure(&d->left.cell);
+    if (!sure) unknown_leave_out(&scan, &cell);
+  }
+  d->unknown = d->nominal_flew && d->left.found;
   if (!d->unknown) return DONE;
   for (int i = 0; i < GROUPS; i++) {
     const cell_t *const cell = unknown_by_flight(&scan, &d->left, i);

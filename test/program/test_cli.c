@@ -55,9 +55,10 @@ TEST(programs_of_many_threads_sleep_while_these_wait) {
       {"", "fly close-flight --integrator rk4 --from 1 --to 2", "'0'"},
       {"GOMP_SPINCOUNT=7", "gap --version", "'7'"},
       {"OMP_WAIT_POLICY=active", "gap --version", "'30000000000'"},
+      {"OMP_NUM_THREADS=1", "gap --version", "'300000'"}, // nobody waits
   };
-  static const char *const told = "GOMP_SPINCOUNT = ", *const unset =
-                                                           "env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT";
+  static const char *const told = "GOMP_SPINCOUNT = ",
+                           *const unset = "env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT -u OMP_NUM_THREADS";
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s %s", row[i].said, row[i].line);
     char line[200], text[8000];

@@ -206,7 +206,8 @@ static int block_samples(const gap_flight_t *f) {
   return (int)fmax(1.0, round(BLOCK_S * f->rate_Hz));
 }
 
-// Means over a block of samples, or over those of it that have both; n: how many have.
+// Means over those of a block's samples that have both; n: how many have, at least half of a block; 0: fewer,
+// of which a kick would be the most.
 typedef struct {
   int n;
   double thrust_N, acc_mps2;
@@ -223,7 +224,7 @@ static lift_t lift_over(const gap_flight_t *f, const model_t *vehicle, bool by_s
     mean.thrust_N += (thrust_N - mean.thrust_N) / mean.n;
     mean.acc_mps2 += (acc_mps2 - mean.acc_mps2) / mean.n;
   }
-  return mean;
+  return 2 * mean.n < block_samples(f) ? (lift_t){.n = 0} : mean;
 }
 
 // Returns thrust over mass times specific force (g if not logged), both means in flight; NaN: too short.
@@ -254,18 +255,19 @@ static done_t check_speeds(const gap_flight_t *f, const log_rows_t *rows, why_t 
 }
 
 // Adds up each motor over a block of samples, and returns the mean of their sum; n: samples that have all
-// four.
+// four. 0: these are less than half of a block.
 static double sum_of_motors(const gap_flight_t *f, signal_id_t first, int from, double sum[ROTORS], int *n) {
   const int end = from + block_samples(f) < f->n ? from + block_samples(f) : f->n;
   double all = 0.0;
   for (int i = from; i < end; i++) {
-    const double now = f->v[first][i] + f->v[first + 1][i] + f->v[first + 2][i] + f->v[first + 3][i];
+    double now = 0.0;
+    for (int k = 0; k < ROTORS; k++) now += f->v[(int)first + k][i];
     if (!isfinite(now)) continue;
     for (int k = 0; k < ROTORS; k++) sum[k] += f->v[(int)first + k][i];
     all += now;
     ++*n;
   }
-  return *n ? all / *n : 0.0;
+  return 2 * *n < block_samples(f) ? 0.0 : all / *n;
 }
 
 // Refuses a motor whose mean in flight differs too much from the others': no trim is so uneven.

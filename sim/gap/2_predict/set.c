@@ -92,7 +92,7 @@ static done_t no_rows(const grid_t *g, why_t *why) {
     return error_set(
         why, "%s: on the floor, or at the vehicle file's ceiling or above it; allowed: free flight", name);
   return error_set(why,
-                   "%s: no instant at which motors carry it, none at its limit, free of floor and ceiling, "
+                   "%s: no instant at which motors carry it, below their limit, free of floor and ceiling, "
                    "with every signal there",
                    name);
 }

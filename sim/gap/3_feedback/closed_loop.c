@@ -10,12 +10,12 @@
 #define TILT_MOST  0.35 // largest tilt gain over the square of the rate gain: more overshoots
 #define LEAD_MOST  0.5 // largest lead: acts as so much more inertia; beyond it lag and delay make a loop ring
 #define TILT_LEAST 0.1 // least of the same, up to SWIFT_GAIN: with less it does not hold its place
-#define SWIFTER    2.0 // a pilot rings from a gain on, and falls over from twice as much
-// Share of what commands change by. A pilot that answers rate and tilt alone, as PyFlyt's PID, has 0.75 to
-// 0.98 where its motors' noise turns the vehicle. That is the log in which control's answer looks most like a
-// flat thrust curve, and gains that were cut to what does not ring made a third of it: with nothing hidden,
-// thrust_slope was named. The Crazyflie's INDI, which answers accelerations too, has 0.7 at most, and four
-// times its gain is read.
+#define SWIFTER    2.0 // a pilot rings from a gain on, and falls over from more than twice as much
+// Share of what commands change by. A pilot that answers rate and tilt alone has 0.75 to 0.98 where noise of
+// each motor turns the vehicle (PyFlyt's PID; the Crazyflie's in recorded flights: 0.8). That is the log in
+// which control's answer looks most like a flat thrust curve, and gains that were cut to what does not ring
+// made a third of it: with nothing hidden, thrust_slope was named. The Crazyflie's INDI, which answers
+// accelerations too, has 0.7 at most, and four times its gain is read.
 #define BELIEVED 0.75
 #define YAW_GAIN 5.0 // 1/s: as the Crazyflie's, whose yaw is weak; the least
 // Where rows are fewer than commands, no single time shift of the logged commands fits both those that turn
@@ -89,7 +89,7 @@ static void two_solve(const two_t *t, double *x, double *y) {
   *y = good ? -(t->bc * t->aa - t->ac * t->ab) / det : (double)NAN;
 }
 
-// True if c = -x a - y b explains nearly all of c: then gains x and y are those that flew.
+// True if c = -x a - y b explains so much of c that the gains x and y are those that flew.
 static bool explains(const two_t *t, double x, double y) {
   return -(x * t->ac + y * t->bc) > BELIEVED * t->cc;
 }
@@ -145,12 +145,14 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
   two_solve(&roll, &w->rate_gain[0], &tilt[0]);
   two_solve(&pitch, &w->rate_gain[1], &tilt[1]);
   two_solve(&climb, &w->climb_gain, &w->height_gain);
-  if (explains(&roll, w->rate_gain[0], tilt[0]) && explains(&pitch, w->rate_gain[1], tilt[1]))
-    w->swift = clamp(fmin(w->rate_gain[0], w->rate_gain[1]) / w->rate_gain_most, 1.0, SWIFTER);
-  w->rate_gain_most *= w->swift;
+  const double most = w->rate_gain_most;
+  if (!w->unread && explains(&roll, w->rate_gain[0], tilt[0]) && explains(&pitch, w->rate_gain[1], tilt[1]))
+    w->rate_gain_most = clamp(fmin(w->rate_gain[0], w->rate_gain[1]), most, SWIFTER * most);
+  w->swift = w->rate_gain_most / most;
   for (int i = 0; i < 2; i++) w->rate_gain[i] = clamp(w->rate_gain[i], RATE_GAIN_LEAST, w->rate_gain_most);
   const double yaw_most = w->rate_gain_most / yaw_at_once(m), turns = -yaw.ac / yaw.aa;
-  w->rate_gain[2] = fmin(explains(&yaw, turns, 0.0) ? fmax(turns, YAW_GAIN) : YAW_GAIN, yaw_most);
+  w->rate_gain[2] =
+      fmin(!w->unread && explains(&yaw, turns, 0.0) ? fmax(turns, YAW_GAIN) : YAW_GAIN, yaw_most);
   const double least = fmin(w->rate_gain[0], w->rate_gain[1]), slow = fmin(least, SWIFT_GAIN);
   w->tilt_gain = clamp(fmax(tilt[0], tilt[1]), TILT_LEAST * slow * slow, TILT_MOST * least * least);
   w->climb_gain = clamp(w->climb_gain, 2.0, 8.0);

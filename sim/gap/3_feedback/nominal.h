@@ -29,8 +29,8 @@ static inline int nominal_steps(double sample_s) {
 typedef struct {
   double rate_gain[3], tilt_gain; // 1/s, 1/s2: angular acceleration per rate and per angle
   double rate_lead[3];            // no unit: angular acceleration commanded per that seen from call to call
-  double rate_gain_most;          // 1/s: the motors do not follow a larger one
-  double swift; // no unit, 1 or more: how far beyond the gain from which on it rings the log's pilot was
+  double rate_gain_most; // 1/s: no larger one is flown, because it rings; `swift` times that of such motors
+  double swift; // no unit: how far beyond it the log's pilot was; 1, or 0, which counts as 1: it was not
   double turn_noise_radps2[2]; // of a sample of the commands about x and y, sd; 0: not known
   double spared; // share (0 to 1) of the log's noise that logging adds and the pilot is not fed with
   double climb_gain, height_gain; // 1/s, 1/s2

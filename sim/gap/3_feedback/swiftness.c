@@ -11,7 +11,8 @@
 #include "body/side_by_side.h"
 #include <stdlib.h>
 
-// Number of gains that are tried side by side, in equal ratios from what was read to what the motors follow.
+// Number of gains that are tried side by side, in equal ratios from what was read to the largest that is
+// flown.
 enum { TRIALS = 8 };
 
 typedef struct {

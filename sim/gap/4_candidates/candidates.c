@@ -173,8 +173,8 @@ static void add_variants(candidates_t *c, const model_t *m, const fx_t *fx, numb
 }
 
 done_t candidates_make(candidates_t *c, const model_t *m, const set_t *s, why_t *why) {
-  *c = (candidates_t){.candidate =
-                          calloc((size_t)(fx_count * FX_SHAPE_MAX * FX_KIND_MAX), sizeof(candidate_t))};
+  *c = (candidates_t){.candidate = calloc((size_t)((fx_count + 2 * curve_count) * FX_SHAPE_MAX * FX_KIND_MAX),
+                                          sizeof(candidate_t))};
   if (!c->candidate) return error_failed(why, "out of memory");
   c->cells = cells_of(s);
   for (int i = 0; i < fx_count; i++) {

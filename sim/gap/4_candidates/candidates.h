@@ -4,7 +4,7 @@
 // For an effect that the vehicle file has, the numbers of a candidate are differences from the file's.
 //
 // An effect with a shape (the decay of a ceiling effect, the rotor that is damaged) is a candidate once for
-// each shape. A column is the derivative of the replay with respect to one number of a candidate.
+// each form and shape. A column is the derivative of the replay with respect to one number of a candidate.
 //
 // What may be missing (candidates_t) is made once; what is presently taken to be there (chosen_t) is kept
 // apart.
@@ -47,16 +47,16 @@ typedef struct {
   fx_use_t use[CHOSEN_MAX];
 } chosen_t;
 
-// True for the same numbers of the same effect, perhaps in another shape or kind: at most one of them is
-// there.
+// True for the same numbers of the same effect, perhaps in another form, shape or kind: at most one of them
+// is there.
 bool candidates_exclude(const candidate_t *a, const candidate_t *b);
-// Bars a candidate in every kind and shape; of one whose shape is a number (which rotor) it alone.
+// Bars a candidate in every form, kind and shape; of one whose shape is a number (which rotor) it alone.
 void candidates_bar(candidates_t *c, int candidate);
 
 // Returns its name for people; numbers that an effect has apart (fx->size_apart) have a name of their own.
 const char *candidate_name(const candidate_t *c);
 
-// Returns as how many candidates (shapes and kinds) the numbers of this one are tried.
+// Returns as how many candidates (forms, shapes and kinds) the numbers of this one are tried.
 int candidates_of(const candidates_t *c, int candidate);
 
 // Returns why an effect cannot be looked for in these logs at all; null: it can.

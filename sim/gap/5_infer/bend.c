@@ -24,8 +24,9 @@ static bool find_neighbours(const candidates_t *c, int own, row_of_shapes_t *row
   if (all[own].in_file || all[own].n_shape < 2 || candidate_is_numbered(&all[own])) return false;
   const double here = shape_of(&all[own]);
   for (int i = 0; i < c->n; i++) {
+    if (!same_kind(&all[i].use, &all[own].use)) continue;
     const double there = shape_of(&all[i]);
-    if (!same_kind(&all[i].use, &all[own].use) || !(there != here)) continue;
+    if (!(there != here)) continue;
     int *const side = &row->side[there > here];
     if (*side < 0 || fabs(there - here) < fabs(shape_of(&all[*side]) - here)) *side = i;
   }

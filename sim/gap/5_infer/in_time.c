@@ -193,7 +193,7 @@ static void pulses_in(const look_t *l, int ch, cell_t *cell) {
                      .statistic = fabs(peak.largest) / peak.scatter,
                      .explained = peak.alike,
                      .is_pulse = true,
-                     .log = l->s->grid[w.r->flight[peak.at]].flight->name};
+                     .log = l->s->grid[w.r->flight[peak.at]].flight};
   }
 }
 

@@ -88,6 +88,13 @@ static inline bool unknown_is_sure(const cell_t *cell) {
   return fabs(cell->size) > SCORE_ERRORS * cell_error(cell);
 }
 
+// Leaves a cell of the scan out of what is judged.
+static inline void unknown_leave_out(scan_t *scan, const cell_t *cell) {
+  for (int k = 0; k < UNKNOWN_CELLS; k++)
+    if (scan->cell[k].statistic == cell->statistic && scan->cell[k].channel == cell->channel)
+      scan->cell[k].statistic = scan->cell[k].explained = 0.0;
+}
+
 // Sets, by channel, what flights differ by in a residual where that is beyond its bound (as above; by n
 // nominal flights, 1 or more); elsewhere its statistic is 0. FAILED: no memory.
 MUST_CHECK done_t unknown_differ(const set_t *s, const model_t *m, double *const residual[CHANNELS],

@@ -27,8 +27,8 @@ typedef struct {
   bool first, last; // no row is before `from`, beyond `to`
   bool world;       // force_x and force_y along the world's x and y: it stays where the vehicle turns
   bool is_pulse;    // in one flight, at that time
-  const char *log;  // its name, the flight's own; null: not in one
-  bool is_patch;    // from..to is along x, and this along y
+  const gap_flight_t *log; // that flight
+  bool is_patch;           // from..to is along x, and this along y
   double y_from_m, y_to_m;
 } cell_t;
 

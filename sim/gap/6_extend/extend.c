@@ -136,7 +136,9 @@ static void write_source(const extend_job_t *job, const fx_use_t *use, const nam
     if (in_file) fprintf(out, "; %s has %.9g", job->path, fx_use_size(in_file, k));
     return;
   }
-  if (shape && named->shape_stderr > 0.0)
+  if (shape && in_file)
+    fprintf(out, "as %s has it", job->path);
+  else if (shape && named->shape_stderr > 0.0)
     fprintf(out, "estimated, +- %.2g (standard error)", named->shape_stderr);
   else
     fputs(!shape                       ? "as the effect has it, not estimated"

@@ -34,7 +34,7 @@ static void advise_add(report_t *r) {
 // One can fly for more data at a place or in a state, but not at a time or for a line in the spectrum.
 static void advise_place(report_t *r, const cell_t *cell) {
   char where[REPORT_PLACE];
-  report_place(cell, where);
+  report_place(r, cell, where);
   if (cell->along == COORDINATE_TIME)
     note(
         &r->to_do,

@@ -98,8 +98,8 @@ void page_unknown(const report_t *r, FILE *out) {
                    : "<section><h2>The largest remainder</h2>\n<p>",
         out);
   char where[REPORT_PLACE], cell[REPORT_CELL];
-  fprintf(out, "%s", report_cell(c, cell));
-  if (d->left.also.statistic > 0.0) fprintf(out, ", or %s as well", report_place(&d->left.also, where));
+  fprintf(out, "%s", report_cell(r, c, cell));
+  if (d->left.also.statistic > 0.0) fprintf(out, ", or %s as well", report_place(r, &d->left.also, where));
   fprintf(out, "; its statistic is %.3g, where %.3g is the bound%s.</p>", c->statistic, d->left.cell_bound,
           d->unknown ? "" : ": chance, or a right form with other numbers");
   char acts[REPORT_FOR_A_TIME];

@@ -159,10 +159,10 @@ const char *report_log_name(const report_t *r, const gap_flight_t *log);
 void report_apart(const fx_t *fx, const fx_t *rival, char text[REPORT_TEXT]);
 // Writes where a cell is: "at height 0.4 to 0.6 m", "at time 3.00 to 3.04 s of a.csv". Returns text.
 #define REPORT_PLACE 192
-const char *report_place(const cell_t *cell, char text[REPORT_PLACE]);
+const char *report_place(const report_t *r, const cell_t *cell, char text[REPORT_PLACE]);
 // Writes a cell's size and place: "+0.24 +- 0.005 m/s2 in force_y, at height 0.4 to 0.6 m". Returns text.
 #define REPORT_CELL 288
-const char *report_cell(const cell_t *cell, char text[REPORT_CELL]);
+const char *report_cell(const report_t *r, const cell_t *cell, char text[REPORT_CELL]);
 // Writes how flights differ: "force_y is another in each flight, about the mean of all: -0.06 in a.csv, +0.13
 // in b.csv, +- 0.003 m/s2; .. it acts as ..". Returns text.
 #define REPORT_DIFFER 1536

@@ -66,9 +66,9 @@ static void print_wrapped(const char *text, FILE *out) {
 static void print_unknown(const report_t *r, FILE *out) {
   const diagnosis_t *const d = &r->study->diagnosis;
   char where[REPORT_PLACE], cell[REPORT_CELL], acts[REPORT_FOR_A_TIME], differ[REPORT_DIFFER];
-  fprintf(out, "\nunknown: %s", report_cell(&d->left.cell, cell));
+  fprintf(out, "\nunknown: %s", report_cell(r, &d->left.cell, cell));
   if (d->left.also.statistic > 0.0)
-    fprintf(out, "; it could be %s as well", report_place(&d->left.also, where));
+    fprintf(out, "; it could be %s as well", report_place(r, &d->left.also, where));
   fputc('\n', out);
   if (d->for_a_time.as.n) fprintf(out, "  %s\n", report_for_a_time(&d->for_a_time, acts));
   for (int i = 0; i < GROUPS; i++)

@@ -1,17 +1,16 @@
 // unnamed.c - what the report says of a residual that no name explains.
 #include "gap/8_report/report.h"
 
-#include "base/folder.h"
 #include <math.h>
 
-const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
+const char *report_place(const report_t *r, const cell_t *c, char text[REPORT_PLACE]) {
   text[0] = '\0';
   if (c->along == BY_FLIGHT) {
     text_add(text, REPORT_PLACE, "from flight to flight");
     return text;
   }
   if (c->is_pulse) {
-    text_add(text, REPORT_PLACE, "at time %.2f to %.2f s of %s", c->from, c->to, folder_file(c->log));
+    text_add(text, REPORT_PLACE, "at time %.2f to %.2f s of %s", c->from, c->to, report_log_name(r, c->log));
     return text;
   }
   text_add(text, REPORT_PLACE, "at %s %.3g to %.3g %s", c->coordinate, c->from, c->to, c->unit);
@@ -19,12 +18,12 @@ const char *report_place(const cell_t *c, char text[REPORT_PLACE]) {
   return text;
 }
 
-const char *report_cell(const cell_t *c, char text[REPORT_CELL]) {
+const char *report_cell(const report_t *r, const cell_t *c, char text[REPORT_CELL]) {
   char where[REPORT_PLACE];
   const bool differs = c->along == BY_FLIGHT; // its size is a spread, and has no sign
   snprintf(text, REPORT_CELL, "%s%.3g +- %.1g %s%s in %s%s, %s", differs || c->size < 0.0 ? "" : "+", c->size,
            cell_error(c), gap_unit[c->channel], differs ? " rms" : "", gap_channel[c->channel],
-           c->world ? " (the world's)" : "", report_place(c, where));
+           c->world ? " (the world's)" : "", report_place(r, c, where));
   return text;
 }
 
@@ -33,6 +32,7 @@ const char *report_cell(const cell_t *c, char text[REPORT_CELL]) {
 static void add_shape(char *text, size_t room, const fx_use_t *use) {
   int n;
   const fx_param_t *const param = fx_use_params(use, &n);
+  if (use->form) text_add(text, room, "form %s, ", use->form->name);
   if (fx_use_has_shape(use))
     text_add(text, room, "%s %.3g, ", param[use->fx->shape_param].name, use->p[use->fx->shape_param]);
 }

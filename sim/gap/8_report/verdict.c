@@ -105,9 +105,13 @@ static void add_place(cJSON *o, const cell_t *c) {
   add(o, {.key = "channel", .text = gap_channel[c->channel]},
       {.key = "axes", .text = c->world ? "world" : "body"}, {.key = "coordinate", .text = c->coordinate},
       {.key = "from", .number = c->from}, {.key = "to", .number = c->to});
-  if (c->is_pulse) cJSON_AddStringToObject(o, "log", c->log);
+  if (c->is_pulse) add(o, {.key = "log", .text = c->log->name});
   if (!c->is_patch) return;
   add(o, {.key = "y_from", .number = c->y_from_m}, {.key = "y_to", .number = c->y_to_m});
+}
+
+static void add_form(cJSON *o, const fx_use_t *use) {
+  if (use->form) cJSON_AddStringToObject(o, "form", use->form->name);
 }
 
 // Adds the effects that would explain the residual from from_s to to_s, or (outside) at all other times.
@@ -119,6 +123,7 @@ static void add_acts_as(cJSON *o, const for_a_time_t *f) {
     int n;
     const fx_param_t *const param = fx_use_params(&one->use, &n);
     cJSON_AddStringToObject(would, "name", one->use.fx->name);
+    add_form(would, &one->use);
     cJSON *const all = cJSON_AddObjectToObject(would, "parameters");
     for (int k = 0; k < n; k++) cJSON_AddNumberToObject(all, param[k].name, one->use.p[k]);
     cJSON_AddBoolToObject(would, "outside", f->outside);
@@ -152,6 +157,7 @@ static void add_differ(cJSON *o, const report_t *r) {
     for (int i = 0; i < d->as.n; i++) {
       cJSON *const would = add_object(acts_as);
       cJSON_AddStringToObject(would, "name", d->as.would[i].use.fx->name);
+      add_form(would, &d->as.would[i].use);
       cJSON *const sizes = cJSON_AddArrayToObject(would, "parameters");
       for (int f = 0; f < d->n; f++) add_sizes(sizes, &d->use[i * d->n + f]);
       add(would, {.key = "share", .number = d->as.would[i].share});

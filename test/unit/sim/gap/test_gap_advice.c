@@ -58,6 +58,7 @@ TEST(gap_advises_to_mind_what_has_no_name) {
 }
 
 TEST(gap_advises_to_fly_where_something_is_but_not_when) {
+  static const gap_flight_t two = {.name = "/folder/two.csv"};
   static const struct {
     cell_t cell;
     const char *line;
@@ -66,7 +67,7 @@ TEST(gap_advises_to_fly_where_something_is_but_not_when) {
        "fly: the same again with more time at height 0.4 to 0.6 m, and as much beside it"},
       {{.along = COORDINATE_TIME, .coordinate = "time", .unit = "s", .from = 3.0, .to = 3.2},
        "fly: the same again, and see whether what is at time 3 to 3.2 s comes once more; "},
-      {{.along = COORDINATE_TIME, .from = 3.0, .to = 3.04, .is_pulse = true, .log = "/folder/two.csv"},
+      {{.along = COORDINATE_TIME, .from = 3.0, .to = 3.04, .is_pulse = true, .log = &two},
        "fly: the same again, and see whether what is at time 3.00 to 3.04 s of two.csv comes once more; "},
       {{.along = NOWHERE, .coordinate = "frequency", .unit = "Hz", .from = 2.4, .to = 2.6},
        "fly: the same again with another pilot or other gains, and see whether it stays at frequency "

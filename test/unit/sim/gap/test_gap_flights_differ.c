@@ -105,7 +105,7 @@ TEST(gap_tells_what_flights_differ_by_flight_by_flight) {
                         .mean = mean,
                         .error = error,
                         .use = use};
-  CHECK_TEXT(report_cell(&d.cell, cell), "0.1 +- 0.002 m/s2 rms in force_y, from flight to flight");
+  CHECK_TEXT(report_cell(NULL, &d.cell, cell), "0.1 +- 0.002 m/s2 rms in force_y, from flight to flight");
   CHECK_TEXT(report_differ(r, &d, text), "force_y is another in each flight, about the mean of all: -0.06 in "
                                          "a.csv, +0.13 in b.csv, -0.07 in again/b.csv, +- 0.003 m/s2");
   d.as = (acts_as_t){1, {{.use = use[0], .share = 0.97}}};

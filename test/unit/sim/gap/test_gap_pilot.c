@@ -62,6 +62,31 @@ TEST(gap_lets_a_pilot_be_as_swift_as_its_motors_and_its_commands_allow) {
   }
 }
 
+// With these motors and this vehicle a pilot rings from 39.39 1/s on.
+TEST(gap_tames_a_pilot_to_what_its_vehicle_bears) {
+  static const struct {
+    const char *what;
+    double swift, delay_s, gain, yaw, tamed, tamed_yaw; // gains in 1/s
+  } row[] = {{"one that does not ring", 1.0, 0.0, 20.0, 5.0, 20.0, 5.0},
+             {"a swift one is cut", 1.0, 0.0, 100.0, 5.0, 39.39, 5.0},
+             {"one as swift as the log's is not", 1.4, 0.0, 55.0, 40.0, 55.0, 40.0},
+             {"but to that", 1.4, 0.0, 100.0, 40.0, 55.15, 40.0},
+             {"by a vehicle that is slower, about z too", 1.4, 0.02, 55.0, 40.0, 19.57, 14.19}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    nominal_flight_t f = {.own = {.rate_gain = {row[i].gain, row[i].gain, row[i].yaw},
+                                  .rate_gain_most = 39.39 * row[i].swift,
+                                  .swift = row[i].swift,
+                                  .tilt_gain = 60.0}};
+    f.w = &f.own;
+    f.body.rigid.motor_tau_s = 0.03;
+    f.body.plant.delay_s = row[i].delay_s;
+    pilot_tame(&f);
+    for (int k = 0; k < 2; k++) CHECK_NEAR(f.own.rate_gain[k], row[i].tamed, 0.01);
+    CHECK_NEAR(f.own.rate_gain[2], row[i].tamed_yaw, 0.01);
+  }
+}
+
 // The flight code turns it with 24 1/s, and a third more or less is found. What a hovering vehicle turns is
 // its pilot's doing; in a manoeuvre the one that is tried follows some of it, and less is found.
 TEST(gap_finds_a_pilots_gain_by_how_much_the_vehicle_turns) {
@@ -274,6 +299,8 @@ TEST(gap_believes_gains_that_explain_what_the_commands_change_by) {
     for (int k = 0; k < 2; k++) CHECK_NEAR(read.rate_gain[k], row[i].gain, 0.05 * row[i].gain);
     CHECK_NEAR(read.swift, row[i].swift, 0.07);
     CHECK_NEAR(read.rate_gain[2], row[i].yaw, 0.05 * row[i].yaw);
+    CHECK(read.tilt_gain <= 63.0); // its commands ask for no tilt: a tenth of the square of 25 1/s
+    CHECK(read.rate_gain[0] <= read.rate_gain_most);
     lines_free(&left);
     gap_track_free(&r);
   }

@@ -50,6 +50,24 @@ TEST(gap_tells_nothing_of_a_size_within_two_errors) {
   }
 }
 
+TEST(gap_judges_what_is_left_again_without_a_cell_that_is_left_out) {
+  scan_t log = {.cell = {{.statistic = 0.0}}}, nominal[NOMINAL_FLIGHTS];
+  const double misfit[CHANNELS] = {[CH_FZ] = 0.02};
+  const int place = unknown_cell(CH_FZ, COORDINATE_HEIGHT, false),
+            other = unknown_cell(CH_FX, COORDINATE_VEL_Z, false);
+  judged_t judged;
+  for (int i = 0; i < NOMINAL_FLIGHTS; i++)
+    for (int k = 0; k < UNKNOWN_CELLS; k++) nominal[i].cell[k].statistic = 3.0 + 0.1 * i;
+  log.cell[place] = (cell_t){.channel = CH_FZ, .size = 0.5, .statistic = 30.0, .explained = 900.0};
+  log.cell[other] = (cell_t){.channel = CH_FX, .size = 0.5, .statistic = 25.0, .explained = 625.0};
+  for (int i = 0; i < 3; i++) {
+    unknown_judge(&log, nominal, NOMINAL_FLIGHTS, misfit, &judged);
+    CHECK(judged.found == (i < 2));
+    CHECK(i == 2 || judged.cell.channel == (i ? CH_FX : CH_FZ));
+    unknown_leave_out(&log, &judged.cell);
+  }
+}
+
 // In the nominal flights one look finds ten times what is usual: that bounds chance, and says nothing about
 // what a right form with other numbers leaves, 0.02 of what is typical: of that size 0.12 is told, as of
 // names. Chance is the root of F(1, 10)'s upper hundredth, 3.17, times 42.
