@@ -124,14 +124,17 @@ static double flown(const model_t *truth, const fx_use_t *hidden, int param) {
   return round((before_s + p) / EXAM_TICK_S) * EXAM_TICK_S - before_s;
 }
 
-// Hidden effects in a form of the exam's own have no such numbers, and are left out.
+// Hidden effects in a form of the exam's own, or of which another form is named, have no such numbers, and
+// are left out.
 static void mark_values(exam_set_t *set, const diagnosis_t *d, const model_t *truth) {
   for (int i = 0; i < d->found.n; i++) {
     const named_t *const named = &d->found.named[i];
     const fx_use_t *const use = found_use(&d->found, named);
     const candidate_t *const own = &d->candidates.candidate[named->candidate];
     for (int q = 0; q < truth->n_fx; q++)
-      for (int k = own->from; truth->fx[q].fx == use->fx && k < own->to && set->n_value < EXAM_VALUES; k++) {
+      for (int k = own->from; truth->fx[q].fx == use->fx && truth->fx[q].form == use->form && k < own->to &&
+                              set->n_value < EXAM_VALUES;
+           k++) {
         const int param = use->fx->size[k].param;
         int n;
         set->value[set->n_value++] =

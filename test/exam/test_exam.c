@@ -162,6 +162,19 @@ TEST(a_ground_beside_another_effect_has_its_own_decay) {
   named_alone(EXAM_TWO, 45101);
 }
 
+// Between the decays that are tried. Sized by the columns of the nearest of these, it was told as an inverse
+// square.
+TEST(a_ground_beside_a_ceiling_is_told_in_its_own_form) {
+  exam_set_t set;
+  why_t why;
+  int grounds = 0;
+  CHECK_OK(exam_one(EXAM_TWO, 57104, &set, &why));
+  CHECK(set.exact);
+  for (int k = 0; k < set.n_value; k++)
+    grounds += strcmp(set.value[k].name, "ground") == 0 && exam_holds(&set.value[k]);
+  CHECK(grounds == 1);
+}
+
 // The sensor reads 7 cm too little, but never below 4 cm: that is no floor of 6 or 8 cm.
 TEST(a_range_bias_is_told_alone_where_the_sensor_is_at_its_floor) {
   static const unsigned long seed[] = {175106, 175166};

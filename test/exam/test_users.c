@@ -150,6 +150,11 @@ TEST(users_logs_are_given_a_sag_between_the_voltages_that_are_tried) {
   for (unsigned i = 0; i < FEW_OR_ALL(row, 3); i++) answers(row[i].kind, row[i].seed, row[i].answer);
 }
 
+// A swap that a straight line promises, and the models do not keep, would leave it without a name.
+TEST(users_logs_are_given_a_bent_curve_though_flights_differ) {
+  answers(USERS_REFIT, 58103, "thrust_curve UNKNOWN turn_y at flight");
+}
+
 // A search with nominal flights that began from nothing chose a first name that leaves other noise colours,
 // and then named a broken and a tilted rotor in its place.
 TEST(users_logs_are_looked_at_again_from_where_the_first_look_ended) {

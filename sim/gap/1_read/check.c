@@ -224,7 +224,8 @@ static lift_t lift_over(const gap_flight_t *f, const model_t *vehicle, bool by_s
     mean.thrust_N += (thrust_N - mean.thrust_N) / mean.n;
     mean.acc_mps2 += (acc_mps2 - mean.acc_mps2) / mean.n;
   }
-  return 2 * mean.n < block_samples(f) ? (lift_t){.n = 0} : mean;
+  if (2 * mean.n < block_samples(f)) mean = (lift_t){.n = 0};
+  return mean;
 }
 
 // Returns thrust over mass times specific force (g if not logged), both means in flight; NaN: too short.
