@@ -37,6 +37,9 @@ TEST(curves_have_their_published_values) {
       {"square-root", 1.0, 1.030, 5e-4},
       {"square-root", 2.0, 1.0078, 5e-5},
       {"square-root", 0.0, 2.337, 5e-4}, // not measured nearer than 0.1 R
+      {"inverse-square", 10.0, 1.000625, 2e-6}, // k (R/4h)^2
+      {"inverse-square", 2.0, 1.014706, 5e-7},
+      {"inverse-square", 0.0, 1.25, 1e-12},
       {"linear", 0.0, 1.1651, 1e-12},
       {"linear", 2.0, 1.0905, 1e-12},
       {"linear", 4.42, 1.0, 3e-4},
@@ -116,6 +119,32 @@ TEST(a_curve_that_is_varied_adds_more_and_falls_faster) {
       }
     }
   }
+}
+
+// The workflow estimates the first number of a curve as a factor, and tries the second one.
+TEST(every_curve_that_is_looked_for_has_a_factor_and_then_a_shape) {
+  const curve_points_t none = {.n = 0};
+  int looked_for = 0;
+  for (int c = 0; c < curve_count; c++) {
+    const curve_t *const curve = curve_table[c];
+    double p[FX_PARAM_MAX];
+    ROW("%s", curve->name);
+    CHECK(curve->n_shape != 1 && curve->n_shape <= FX_SHAPE_MAX);
+    for (int k = 0; k < curve->n_shape; k++) {
+      CHECK(curve->shape[k] >= curve->param[1].min && curve->shape[k] <= curve->param[1].max);
+      CHECK(k == 0 || curve->shape[k] > curve->shape[k - 1]);
+      for (int i = 0; i < curve->n_param; i++) p[i] = curve->param[i].nominal;
+      p[1] = curve->shape[k];
+      p[0] = 0.1;
+      const double once = curve->ratio(p, &none, 0.03, 0.02) - 1.0;
+      p[0] = 0.3;
+      CHECK_NEAR(curve->ratio(p, &none, 0.03, 0.02) - 1.0, 3.0 * once, 1e-12);
+    }
+    looked_for += curve->n_shape > 0;
+  }
+  CHECK(looked_for >= 2);
+  for (int i = 0; i < fx_count; i++)
+    CHECK(!fx_table[i]->surface || (fx_table[i]->shape_param == 1 && !fx_table[i]->n_shape));
 }
 
 TEST(every_effect_and_curve_is_described_and_within_its_ranges) {
