@@ -36,7 +36,7 @@ TEST(curves_have_their_published_values) {
       {"square-root", 0.5, 1.112, 5e-4},
       {"square-root", 1.0, 1.030, 5e-4},
       {"square-root", 2.0, 1.0078, 5e-5},
-      {"square-root", 0.0, 2.337, 5e-4}, // not measured nearer than 0.1 R
+      {"square-root", 0.0, 2.337, 5e-4},        // not measured nearer than 0.1 R
       {"inverse-square", 10.0, 1.000625, 2e-6}, // k (R/4h)^2
       {"inverse-square", 2.0, 1.014706, 5e-7},
       {"inverse-square", 0.0, 1.25, 1e-12},
