@@ -17,7 +17,6 @@
 // made a third of it: with nothing hidden, thrust_slope was named. The Crazyflie's INDI, which answers
 // accelerations too, has 0.7 at most, and four times its gain is read.
 #define BELIEVED 0.75
-#define YAW_GAIN 5.0 // 1/s: as the Crazyflie's, whose yaw is weak; the least
 // Where rows are fewer than commands, no single time shift of the logged commands fits both those that turn
 // the vehicle and those that are held between two looks at place and speed, and in a manoeuvre too small a
 // gain is found (swiftness.c). Then every odd pilot is at least as swift as the Crazyflie's INDI (24 1/s,

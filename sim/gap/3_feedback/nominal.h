@@ -23,6 +23,7 @@ static inline int nominal_steps(double sample_s) {
   return (int)fmax(1.0, round(sample_s / NOMINAL_STEP_S));
 }
 
+#define YAW_GAIN        5.0 // 1/s, about z: as the Crazyflie's, whose yaw is weak; the least
 #define RATE_GAIN_LEAST 8.0 // 1/s: with less a vehicle that small falls over
 
 // How a flight was flown and measured.

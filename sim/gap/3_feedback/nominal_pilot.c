@@ -6,10 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#define QUICK_S 0.03 // s: slower motors get commands with a lead that makes them as quick as this
-#define YAW_SLOW                                                                                             \
-  6.5 // 1/s: as slow about z, a pilot does not ring: a Crazyflie's, and the third by which it is varied
-#define SWIFT     1.3 // largest rate gain times lag: beyond it the cascade rings
+#define QUICK_S   0.03 // s: slower motors get commands with a lead that makes them as quick as this
+#define SWIFT     1.3  // largest rate gain times lag: beyond it the cascade rings
 #define TILT_MAX  0.5
 #define BEND_SURE 2.0  // standard errors that are taken off the track's linear and angular acceleration
 #define SPARE     0.95 // of the motors' thrust may lift; the rest turns the vehicle
@@ -211,8 +209,10 @@ void pilot_tame(nominal_flight_t *f) {
       larger(w->swift, 1.0) *
       pilot_gain_most(f->body.rigid.motor_tau_s, f->body.plant.delay_s, pilot_period_s(w->flown_by));
   for (int i = 0; i < 2; i++) w->rate_gain[i] = smaller(w->rate_gain[i], most);
+  // A gain that is not read off the log is slow enough for any vehicle.
+  const double slow = (1.0 + NOMINAL_VARIED) * YAW_GAIN;
   w->rate_gain[2] =
-      smaller(w->rate_gain[2], larger(YAW_SLOW, smaller(1.0, most / w->rate_gain_most) * w->rate_gain[2]));
+      smaller(w->rate_gain[2], larger(slow, smaller(1.0, most / w->rate_gain_most) * w->rate_gain[2]));
   const double least = smaller(w->rate_gain[0], w->rate_gain[1]);
   w->tilt_gain = smaller(w->tilt_gain, 0.25 * least * least);
   f->push = smaller(3.0, larger(0.8, 0.5 * w->tilt_gain / least));
