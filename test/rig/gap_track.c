@@ -43,3 +43,23 @@ void gap_track_thin(gap_track_t *t, int every) {
     }
   }
 }
+
+static void average(double *v, int n, int every, bool range) {
+  for (int i = 0; v && i < n; i++) {
+    double sum = 0.0;
+    for (int k = 0; k < every; k++) sum += v[every * i + k];
+    v[i] = range ? v[every * i + every / 2] : sum / every;
+  }
+}
+
+void gap_track_average(gap_track_t *t, int every) {
+  for (int f = 0; f < 2; f++) {
+    gap_flight_t *const log = &t->flight[f];
+    log->n /= every;
+    log->rate_Hz /= every;
+    log->rows_are_means = true;
+    average(log->t_s, log->n, every, false);
+    for (int s = 0; s < SIG_COUNT; s++)
+      average(log->v[s], log->n, every, s == SIG_RANGE || s == SIG_RANGE_DOWN);
+  }
+}

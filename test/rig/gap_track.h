@@ -24,5 +24,7 @@ void gap_track_free(gap_track_t *t);
 
 // Keeps one of `every` samples of each flight.
 void gap_track_thin(gap_track_t *t, int every);
+// Makes rows that are means over `every` samples. A range stays a sample.
+void gap_track_average(gap_track_t *t, int every);
 
 #endif

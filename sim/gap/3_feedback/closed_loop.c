@@ -164,11 +164,14 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
 // At each call a pilot answers white noise n of the rates with -(P + d) n(0) + d n(1), P its rate gain and d
 // its lead over its period. Third differences of rows one call apart have (70 d^2 + 70 P d + 20 P^2) times
 // the variance of n, of rows two calls or more apart 20 ((P + d)^2 + d^2) times; noise_of() divides by the
-// 20.
+// 20. Of rows that are means over N calls they have 20 P^2 + 70 / N (d^2 + P d) times that of a row's mean:
+// what the lead adds at one call it takes back at the next, and only the ends of a row are left.
 #define CALLS_APART 1.5 // calls per row: between one and two
 
-static double lead_of(double noise, double gyro, double gain, double calls_a_row) {
-  const double ratio = gyro > 0.0 ? noise / gyro : 0.0, share = calls_a_row < CALLS_APART ? 80.0 / 70.0 : 2.0;
+static double lead_of(double noise, double gyro, double gain, double calls_a_row, bool means) {
+  const double next = 80.0 / 70.0 * (means ? fmax(calls_a_row, 1.0) : 1.0);
+  const double ratio = gyro > 0.0 ? noise / gyro : 0.0,
+               share = means || calls_a_row < CALLS_APART ? next : 2.0;
   const double more = gain * gain + share * (ratio * ratio - gain * gain);
   return more > gain * gain ? 0.5 * (sqrt(more) - gain) : 0.0;
 }
@@ -189,7 +192,8 @@ static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
     const double noise = noise_of(g, turn) / (1.0 + pilot_motor_lead(m->motor_tau_s));
     if (axis < 2) w->turn_noise_radps2[axis] = noise;
     if (told) continue;
-    const double d = lead_of(noise, w->gyro_radps[axis], w->rate_gain[axis], row_s / call_s);
+    const double d =
+        lead_of(noise, w->gyro_radps[axis], w->rate_gain[axis], row_s / call_s, g->flight->rows_are_means);
     w->rate_lead[axis] = fmin(d * call_s, LEAD_MOST / (axis == 2 ? yaw_at_once(m) : 1.0));
   }
   free(turn);

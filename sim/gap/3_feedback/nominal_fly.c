@@ -97,7 +97,8 @@ static bool shake_first(nominal_flight_t *f, unsigned long seed) {
 
 // --- sensors ----------------------------------------------------------------------------------------------
 
-#define SEEN 17 // numbers per step for errors of one sample
+#define SEEN        17 // numbers per step for errors of one sample
+#define RANGE_DRAWN 16 // which of them is the range's, the last
 
 _Static_assert(SHAKE % 2 == 0 && (LASTS + SEEN) % 2 == 0, "random_triangles() draws pairs");
 
@@ -140,7 +141,7 @@ static void look(nominal_flight_t *f, const double drawn[SEEN]) {
   seen->q_wb = dq_mul(is->q_wb, wrong);
   seen->rate_b_radps = noisy3(is->rate_b_radps, w->gyro_radps, drawn + 9);
   seen->acc_b_mps2 = noisy3(is->acc_b_mps2, w->acc_mps2, drawn + 12);
-  seen->range_m = is->range_m + w->range_m * drawn[16];
+  seen->range_m = is->range_m + w->range_m * drawn[RANGE_DRAWN];
   seen->vbat_V = is->vbat_V + w->vbat_V * drawn[15];
 }
 
@@ -236,7 +237,7 @@ static bool goes_on(const nominal_flight_t *f) {
 
 static done_t fly(nominal_flight_t *f, why_t *why) {
   const double log_s = f->g->period_s / f->g->every, step_s = step_of(f->g);
-  const int inner = nominal_steps(log_s), per_point = f->g->every;
+  const int inner = f->steps, per_point = f->g->every;
   double motor_N[ROTORS] = {0.0};
   for (int first = f->at = f->from; f->at < f->to; f->at++) {
     if (goes_on(f)) {
@@ -251,11 +252,11 @@ static done_t fly(nominal_flight_t *f, why_t *why) {
         random_triangles(f->random, LASTS + SEEN, drawn);
         drift(f, drawn);
         f->body.vbat_V = f->g->point[f->at].vbat_V;
+        for (int n = LASTS; n < LASTS + RANGE_DRAWN; n++) drawn[n] *= f->loud;
         look(f, drawn + LASTS);
         pilot_take_track(f, (i * inner + k) / (double)(per_point * inner));
         steer(f, step_s, motor_N);
-        if (k == 0) nominal_log_write(f, f->log, &f->seen, motor_N, t_s);
-        if (k == 0 && f->truth) nominal_log_write(f, f->truth, &f->is, motor_N, t_s);
+        nominal_log_step(f, motor_N, k, t_s, step_s);
         shake(f);
         side_by_side_tick(&f->body, motor_N, step_s);
       }
@@ -362,6 +363,8 @@ done_t nominal_fly(const grid_t *g, const model_t *m, const closed_loop_t *w, un
   while (f.from < g->n && !g->point[f.from].ok) f.from++;
   while (f.to > f.from && !g->point[f.to - 1].ok) f.to--;
   if (f.to <= f.from) return error_set(why, "%s: it does not fly", g->flight->name);
+  f.steps = nominal_steps(g->period_s / g->every);
+  f.loud = g->flight->rows_are_means ? sqrt(f.steps) : 1.0;
   track.point = whole_track(g, f.from, f.to, w->spared > 0.0);
   f.g = &track;
   const size_t room = (size_t)(f.to - f.from + 1) * (size_t)g->every;

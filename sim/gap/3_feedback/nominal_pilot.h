@@ -13,6 +13,13 @@ typedef struct {
   double keep[3], fresh[3];
 } decay_t;
 
+// Means over the steps of a row so far.
+typedef struct {
+  grid_point_t seen, is;
+  double motor_N[ROTORS];
+  bool touches; // floor or ceiling
+} nominal_row_t;
+
 typedef struct {
   const grid_t *g;
   const model_t *m;
@@ -22,8 +29,11 @@ typedef struct {
   body_t body;
   random_t *random, *shakes; // for what is seen, and for what disturbs
   d3_t gust_w_N, quick_w_N, disturbs_b_Nm;
-  gap_flight_t *log, *truth;                  // truth: the log without errors; may be null
-  int from, to, at;                           // points of the track: the first, behind the last, now
+  gap_flight_t *log, *truth; // truth: the log without errors; may be null
+  int steps;                 // of a row
+  nominal_row_t row;         // in a log of means: the present one
+  double loud;               // white noise of a step over that of a row: rows that are means have less
+  int from, to, at;          // points of the track: the first, behind the last, now
   d3_t pos_off_m, vel_off_mps, angle_off_rad; // lasting errors
   d3_t turn_trim_radps2;                      // what holds it level, at a thrust of its weight
   double lift_trim;                           // thrust over weight that carries it
@@ -77,8 +87,8 @@ void pilot_trim(nominal_flight_t *f);
 // memory.
 bool nominal_log_room(gap_flight_t *log, const grid_t *g, size_t n);
 
-// Adds a sample; p: what is seen (or is true) at it.
-void nominal_log_write(const nominal_flight_t *f, gap_flight_t *log, const grid_point_t *p,
-                       const double motor_N[ROTORS], double t_s);
+// Logs a step of a row that begins at t_s: the state that is seen (and, in the other log, is true) before it,
+// and its commands. A row has what its first step has or, in a log of means, the means over all its steps.
+void nominal_log_step(nominal_flight_t *f, const double motor_N[ROTORS], int step, double t_s, double step_s);
 
 #endif

@@ -307,12 +307,17 @@ static void spoil_velocities(gap_track_t *r) {
   random_close(random);
 }
 
+static void spoil_into_means(gap_track_t *r) {
+  gap_track_average(r, 5);
+}
+
 TEST(gap_nominal_flights_shake_as_the_log_does) {
   static const struct {
     const char *what;
     void (*spoil)(gap_track_t *r);
     int channels; // an accelerometer that shakes shows in forces; a force of that size shakes what turns, too
   } row[] = {{"as flown", NULL, CH_SMOOTH},
+             {"as means of five samples", spoil_into_means, CH_SMOOTH},
              {"shaken", spoil_by_shaking, CH_FORCES},
              {"without an accelerometer", spoil_velocities, CH_FORCES}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
