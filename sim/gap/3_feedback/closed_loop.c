@@ -32,13 +32,16 @@
 #define SWIFT_GAIN 25.0 // 1/s: angular acceleration per rate
 #define OUTER_S    0.01 // s, period of its position loop
 
-// A moment that changes once in a flight is a standing moment and does not shake the control loop. When it
-// was taken for a disturbance that lasts 3 s, a centre of mass that moved half way through a flight shook the
-// nominal flights by as much as it had turned the vehicle, and nothing was unknown.
-#define STANDS_S 60.0 // s: as long as a nominal flight
+#define STANDS_S     60.0 // s: as long as a nominal flight. What correlates for longer, stands in it
+#define TURN_LEAST_S 0.05 // s: rows, filtered at 5 Hz, do not tell shorter times apart
 
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
+}
+
+// Third differences of samples, as noise has them.
+static double third(const double *v, int i) {
+  return v[i] - 3.0 * v[i - 1] + 3.0 * v[i - 2] - v[i - 3];
 }
 
 // Returns the sd of white noise on a smooth signal, from the median third difference, so that jumps do not
@@ -48,12 +51,43 @@ static double noise_of(const grid_t *g, const double *v) {
   double *const d = malloc((size_t)g->samples * sizeof(double));
   int n = 0;
   for (int i = g->from + 3; d && i < g->from + g->samples; i++) {
-    const double x = fabs(v[i] - 3.0 * v[i - 1] + 3.0 * v[i - 2] - v[i - 3]);
+    const double x = fabs(third(v, i));
     if (isfinite(x)) d[n++] = x;
   }
   const double sd = n ? nth_smallest(d, n, n / 2) / 0.6745 / sqrt(20.0) : 0.0;
   free(d);
   return sd;
+}
+
+// Correlation of third differences with the next ones: of white noise -0.75, of motion more. Above this they
+// are motion, at least in part.
+#define ALTERNATES (-0.5)
+#define JUMPS      (4.0 * sqrt(20.0)) // times the sd: a third difference beyond is no noise
+
+// True if third differences of a signal are white noise.
+static bool is_noise(const grid_t *g, const double *v) {
+  double squares = 0.0, next = 0.0;
+  for (int i = g->from + 4; i < g->from + g->samples; i++) {
+    const double d = third(v, i), before = third(v, i - 1);
+    if (isfinite(d) && isfinite(before)) squares += d * d, next += d * before;
+  }
+  return next < ALTERNATES * squares;
+}
+
+// Returns the slope of a command's third differences on those of what is seen, at this sample or one of the
+// two before: whichever is the most negative. Other noise of the command does not count, nor do jumps.
+static double answer_to(const grid_t *g, const double *command, const double *seen) {
+  const double most_c = JUMPS * noise_of(g, command), most_x = JUMPS * noise_of(g, seen);
+  double least = 0.0;
+  for (int late = 0; late < 3; late++) {
+    double products = 0.0, squares = 0.0;
+    for (int i = g->from + 3 + late; i < g->from + g->samples; i++) {
+      const double c = third(command, i), x = third(seen, i - late);
+      if (fabs(c) < most_c && fabs(x) < most_x) products += c * x, squares += x * x;
+    }
+    if (squares > 0.0) least = fmin(least, products / squares);
+  }
+  return least;
 }
 
 static void noise3(const set_t *s, int signal, double sd[3]) {
@@ -165,7 +199,8 @@ static void find_gains(const set_t *s, const model_t *m, closed_loop_t *w) {
 // its lead over its period. Third differences of rows one call apart have (70 d^2 + 70 P d + 20 P^2) times
 // the variance of n, of rows two calls or more apart 20 ((P + d)^2 + d^2) times; noise_of() divides by the
 // 20. Of rows that are means over N calls they have 20 P^2 + 70 / N (d^2 + P d) times that of a row's mean:
-// what the lead adds at one call it takes back at the next, and only the ends of a row are left.
+// what the lead adds at one call it takes back at the next, and only the ends of a row are left. Regressed on
+// the rates' own, one call apart, they have the slope -(P + 35 / 20 d).
 #define CALLS_APART 1.5 // calls per row: between one and two
 
 static double lead_of(double noise, double gyro, double gain, double calls_a_row, bool means) {
@@ -177,7 +212,11 @@ static double lead_of(double noise, double gyro, double gain, double calls_a_row
 }
 
 // Finds the rate leads, and the noise of the commands about x and y. No lead is read where the vehicle file
-// says that the log has nearly every command: third differences of such slow rows are motion.
+// says that the log has nearly every command and its third differences are motion: so they are in slow rows.
+// In other such logs it is read off the commands' answer to the noise of the rates: a simulator's pilot may
+// not have seen the noise of its log, and what its commands have is that of the motors, fed back. Without a
+// lead, control made a fifth of what it made of noise under the firmware's Mellinger controller, and
+// thrust_scale was named where mass was hidden.
 static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
   const grid_t *const g = &s->grid[0];
   const double row_s = g->period_s / g->every, step_s = row_s / nominal_steps(row_s);
@@ -189,12 +228,14 @@ static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
       g->has_rates && g->has_moments ? malloc((size_t)(g->from + g->samples) * sizeof *turn) : NULL;
   for (int axis = 0; axis < 3 && turn; axis++) {
     for (int i = 0; i < g->samples; i++) turn[g->from + i] = grid_turns(g, m, axis, i);
-    const double noise = noise_of(g, turn) / (1.0 + pilot_motor_lead(m->motor_tau_s));
+    const double by_motors = 1.0 + pilot_motor_lead(m->motor_tau_s), noise = noise_of(g, turn) / by_motors;
     if (axis < 2) w->turn_noise_radps2[axis] = noise;
-    if (told) continue;
+    if (told && !is_noise(g, turn)) continue;
+    const double gain = w->rate_gain[axis];
     const double d =
-        lead_of(noise, w->gyro_radps[axis], w->rate_gain[axis], row_s / call_s, g->flight->rows_are_means);
-    w->rate_lead[axis] = fmin(d * call_s, LEAD_MOST / (axis == 2 ? yaw_at_once(m) : 1.0));
+        told ? (-answer_to(g, turn, g->flight->v[SIG_GX + axis]) / by_motors - gain) / 1.75
+             : lead_of(noise, w->gyro_radps[axis], gain, row_s / call_s, g->flight->rows_are_means);
+    w->rate_lead[axis] = fmin(fmax(d, 0.0) * call_s, LEAD_MOST / (axis == 2 ? yaw_at_once(m) : 1.0));
   }
   free(turn);
 }

@@ -325,7 +325,9 @@ TEST(gap_reads_a_pilots_lead_off_the_noise_of_its_commands) {
              {"more, every other command logged", 0.3, 0.3, 2, 0.0},
              {"some, of 500 commands a second", 0.15, 0.15, 2, 500.0},
              {"some, of more commands a second than a flight has steps", 0.15, 0.15, 1, 1000.0},
-             {"every command logged, as is told", 0.15, 0.0, 1, 500.0}};
+             {"every command logged, as is told", 0.15, 0.15, 1, 500.0},
+             {"more, and every command logged, as is told", 0.3, 0.3, 1, 500.0},
+             {"no lead, and every command logged", 0.0, 0.0, 1, 500.0}};
   gap_track_t r;
   why_t why = {""};
   if (!CHECK_OK(gap_track_make(&r, &(gap_track_job_t){.spoil = NULL}, &why))) return;
