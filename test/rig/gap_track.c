@@ -21,7 +21,7 @@ done_t gap_track_make(gap_track_t *t, const gap_track_job_t *job, why_t *why) {
   TRY(set_make(&t->set, grid, 2, why));
   TRY(lines_make(&left, &t->set, why));
   TRY(residual_of(&t->set, &t->vehicle, left.r, why));
-  t->loop = closed_loop_of(&t->set, &t->vehicle, NULL, left.r);
+  TRY(closed_loop_of(&t->loop, &t->set, &t->vehicle, NULL, left.r, why));
   lines_free(&left);
   return DONE;
 }

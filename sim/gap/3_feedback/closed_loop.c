@@ -4,6 +4,7 @@
 #include "base/lsq_blocks.h"
 #include "base/nth.h"
 #include "gap/2_predict/color.h"
+#include "gap/3_feedback/stirs.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -256,36 +257,27 @@ static double filtered(const grid_t *g, double sd_radps) {
   return 900.0 * sd_radps * sd_radps / g->every * fmin(1.0, 13.0 * g->period_s);
 }
 
-// Returns the mean square, and the correlation of rows two apart, which the filter does not correlate. The
-// mean stays in, because a standing moment is a disturbance, too.
-static double moment(const rows_t *rows, const double *r, double *correlation) {
-  double squares = 0.0, next = 0.0;
-  int pairs = 0;
-  for (int i = 0; i < rows->n; i++) {
-    squares += r[i] * r[i];
-    if (i < 2 || !rows->follows[i] || !rows->follows[i - 1]) continue;
-    next += r[i] * r[i - 2];
-    pairs++;
-  }
-  const double variance = rows->n ? squares / rows->n : 0.0;
-  *correlation = variance > 0.0 && pairs ? next / pairs / variance : 0.0;
-  return variance;
-}
-
 // Finds the disturbing moments. Their correlation time is the mean over the axes: taken axis by axis, that of
 // a weak axis is the noise's, and what feedback made there of a name with too small a number was told as
-// another torque_ratio.
-static void find_moments(const set_t *s, double *const r[CHANNELS], closed_loop_t *w) {
+// another torque_ratio. What correlates rows less than the shortest time would is, in part, new at each step,
+// as the noise of each motor is. Control answers it a step later, too late to cancel it, and its commands
+// look like a flat thrust curve (thrust_slope -0.6 +- 0.03 on PyFlyt's motors with noise of 2 %).
+static done_t find_moments(const set_t *s, double *const r[CHANNELS], closed_loop_t *w, why_t *why) {
+  const double apart_s = STIRS_SLOW / RESIDUAL_HZ, least = exp(-apart_s / TURN_LEAST_S);
   double tau_s = 0.0;
   for (int k = 0; k < 3; k++) {
     if (!residual_has(s, CH_WX + k)) continue;
-    double correlation;
-    const double apart_s = 2.0 / RESIDUAL_HZ, noise = filtered(&s->grid[0], w->gyro_radps[k]);
-    w->turn_radps2[k] = sqrt(fmax(moment(&s->smooth, r[CH_WX + k], &correlation) - noise, 0.0));
-    if (w->turn_radps2[k] > 0.0)
-      tau_s -= apart_s / log(clamp(correlation, 0.05, exp(-apart_s / STANDS_S))) / 3.0;
+    stirs_t stirs = {.share = 0.0};
+    TRY(stirs_add(&stirs, s, r[CH_WX + k], why));
+    const double all = stirs_all(&stirs), own = fmax(all - filtered(&s->grid[0], w->gyro_radps[k]), 0.0);
+    w->turn_radps2[k] = sqrt(own);
+    if (!(own > 0.0)) continue;
+    const double correlation = stirs_lasting(&stirs) / own;
+    tau_s -= apart_s / log(clamp(correlation * own / all, least, exp(-apart_s / STANDS_S))) / 3.0;
+    w->turn_quick[k] = 1.0 - clamp(correlation / least, 0.0, 1.0);
   }
-  w->turn_tau_s = clamp(tau_s, 0.05, STANDS_S);
+  w->turn_tau_s = clamp(tau_s, TURN_LEAST_S, STANDS_S);
+  return DONE;
 }
 
 // Returns the lead of pilots that kick, on the error of a heading that they are told at looks: each step of
@@ -360,8 +352,8 @@ double closed_loop_range_m(const set_t *s, const model_t *m, const double *resid
   return range.used ? range.sd : told->noise_m > 0.0 ? told->noise_m : 0.005;
 }
 
-closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
-                             double *const residual[CHANNELS]) {
+done_t closed_loop_of(closed_loop_t *to, const set_t *s, const model_t *m, const flown_by_t *by,
+                      double *const residual[CHANNELS], why_t *why) {
   closed_loop_t w = {.flown_by = by, .unread = grid_is_slow(&s->grid[0]), .swift = 1.0};
   const gap_flight_t *f = s->grid[0].flight;
   noise3(s, SIG_AX, w.acc_mps2);
@@ -375,7 +367,8 @@ closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t 
   find_gains(s, m, &w);
   find_lead(s, m, &w);
   w.range_m = closed_loop_range_m(s, m, residual[CH_RANGE]);
-  find_moments(s, residual, &w);
+  TRY(find_moments(s, residual, &w, why));
   w.nose_lead = nose_lead(s, m, &w, residual[CH_WZ]);
-  return w;
+  *to = w;
+  return DONE;
 }

@@ -4,12 +4,10 @@
 #include "base/nth.h"
 #include "base/random.h"
 #include "gap/2_predict/residual.h"
+#include "gap/3_feedback/stirs.h"
 #include <math.h>
 
 enum {
-  STRETCH_BLOCKS = 2,          // 4 s: a vehicle takes seconds to pass through something, and a gust less
-  LAGS = (int)RESIDUAL_HZ + 1, // rows: up to a second
-  SLOW_LAG = 2,                // rows: at smaller lags the filter correlates them
   TAUS = 5,     // one row, then twice as long each; of more than 16 rows a stretch has too little
   WHITE = TAUS, // the last trial
   TRIALS,
@@ -18,70 +16,14 @@ enum {
 
 // --- covariances ------------------------------------------------------------------------------------------
 
-// Covariances by channel, over the quieter half of the stretches.
+// Covariances by channel.
 typedef struct {
-  double of[CH_FORCES][LAGS]; // sums of products of rows that far apart, over the number of all rows
-  double changes[CH_FORCES];  // half the mean square of the changes from row to row
+  stirs_t of[CH_FORCES];
 } lags_t;
-
-// One stretch, about its mean.
-typedef struct {
-  double of[LAGS];
-  double changes, pairs; // sum of squares of the changes from row to row, and their number
-  double slow;           // sum of the products from SLOW_LAG on, per row
-} stretch_t;
-
-// Returns the end of the stretch that begins with row `from`.
-static int stretch_end(const rows_t *r, int from) {
-  int end = from;
-  while (end < r->n && r->flight[end] == r->flight[from] && r->block[end] < r->block[from] + STRETCH_BLOCKS)
-    end++;
-  return end;
-}
-
-static stretch_t stretch_of(const rows_t *r, const double *v, int from, int end) {
-  stretch_t s = {.slow = 0.0};
-  double mean = 0.0;
-  for (int i = from; i < end; i++) mean += v[i] / (end - from);
-  for (int i = from, first = from; i < end; i++) {
-    if (!r->follows[i]) first = i;
-    for (int lag = 0; lag < LAGS && i - lag >= first; lag++) s.of[lag] += (v[i] - mean) * (v[i - lag] - mean);
-    if (i == first) continue;
-    s.changes += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
-    s.pairs += 1.0;
-  }
-  for (int lag = SLOW_LAG; lag < LAGS; lag++) s.slow += s.of[lag] / (end - from);
-  return s;
-}
-
-static done_t add_lags(const set_t *s, const double *v, double sum[LAGS], double *changes, why_t *why) {
-  const rows_t *const r = &s->smooth;
-  const size_t room = (size_t)s->n_block + 1;
-  stretch_t *const stretch = malloc(room * sizeof *stretch);
-  double *const slow = malloc(room * sizeof *slow), squares = 0.0, pairs = 0.0;
-  int n = 0;
-  for (int from = 0, end; stretch && slow && from < r->n; from = end, n++) {
-    end = stretch_end(r, from);
-    stretch[n] = stretch_of(r, v, from, end);
-    slow[n] = stretch[n].slow;
-  }
-  const double most = n ? nth_smallest(slow, n, (n - 1) / 2) : 0.0;
-  for (int k = 0; k < n; k++) {
-    if (stretch[k].slow > most) continue;
-    for (int lag = 0; lag < LAGS; lag++) sum[lag] += stretch[k].of[lag] / r->n;
-    squares += stretch[k].changes;
-    pairs += stretch[k].pairs;
-  }
-  *changes += pairs > 0.0 ? 0.5 * squares / pairs : 0.0;
-  const bool good = stretch && slow;
-  free(stretch);
-  free(slow);
-  return good ? DONE : error_failed(why, "out of memory");
-}
 
 static done_t add_forces(const set_t *s, double *const row[CHANNELS], lags_t *sum, why_t *why) {
   for (int ch = 0; ch < CH_FORCES; ch++)
-    if (residual_has(s, ch)) TRY(add_lags(s, row[ch], sum->of[ch], &sum->changes[ch], why));
+    if (residual_has(s, ch)) TRY(stirs_add(&sum->of[ch], s, row[ch], why));
   return DONE;
 }
 
@@ -146,12 +88,12 @@ static done_t try_all(const set_t *s, unsigned long seed, lags_t trial[TRIALS], 
   for (int k = 0; k < TRIALS; k++) {
     why_t own;
     done_t each = DONE;
-    trial[k] = (lags_t){.changes = {0.0}};
+    trial[k] = (lags_t){.of = {{.changes = 0.0}}};
     for (int i = 0; i < times && each == DONE; i++)
       each = add_trial(s, k, seed + (unsigned long)i, &trial[k], &own);
     for (int ch = 0; ch < CH_FORCES; ch++) {
-      trial[k].changes[ch] /= times;
-      for (int lag = 0; lag < LAGS; lag++) trial[k].of[ch][lag] /= times;
+      trial[k].of[ch].changes /= times;
+      for (int lag = 0; lag < STIRS_LAGS; lag++) trial[k].of[ch].lag[lag] /= times;
     }
     if (each == DONE) continue;
 #pragma omp critical
@@ -165,9 +107,9 @@ static done_t try_all(const set_t *s, unsigned long seed, lags_t trial[TRIALS], 
 
 // --- the log's covariances as a sum of both ---------------------------------------------------------------
 
-static double product(const double a[LAGS], const double b[LAGS]) {
+static double product(const double a[STIRS_LAGS], const double b[STIRS_LAGS]) {
   double sum = 0.0;
-  for (int lag = 0; lag < LAGS; lag++) sum += a[lag] * b[lag];
+  for (int lag = 0; lag < STIRS_LAGS; lag++) sum += a[lag] * b[lag];
   return sum;
 }
 
@@ -177,7 +119,8 @@ typedef struct {
   double left; // share of the sum of squares
 } fit_t;
 
-static fit_t fit(const double log[LAGS], const double lasting[LAGS], const double white[LAGS]) {
+static fit_t fit(const double log[STIRS_LAGS], const double lasting[STIRS_LAGS],
+                 const double white[STIRS_LAGS]) {
   const double aa = product(lasting, lasting), ab = product(lasting, white), bb = product(white, white),
                al = product(lasting, log), bl = product(white, log), ll = product(log, log),
                det = aa * bb - ab * ab;
@@ -209,21 +152,22 @@ static void find_quick(const set_t *s, const lags_t *log, const lags_t trial[TRI
                        const double white[CH_FORCES], gusts_t *to) {
   const double every = s->grid[0].every; // a point is the mean of so many samples
   for (int ch = 0; ch < CH_FORCES; ch++) {
-    const double of_white = trial[WHITE].changes[ch] / every;
-    const double left = log->changes[ch] - to->force_mps2[ch] * to->force_mps2[ch] * lasting->changes[ch] -
+    const double of_white = trial[WHITE].of[ch].changes / every;
+    const double left = log->of[ch].changes -
+                        to->force_mps2[ch] * to->force_mps2[ch] * lasting->of[ch].changes -
                         white[ch] * white[ch] * of_white;
     to->quick_mps2[ch] = to->velocity_mps[ch] = 0.0;
     if (!(left > 0.0 && of_white > 0.0)) continue;
     if (s->grid[0].acceleration_made)
       to->velocity_mps[ch] = sqrt(left / of_white);
     else
-      to->quick_mps2[ch] = sqrt(left / trial[0].changes[ch]);
+      to->quick_mps2[ch] = sqrt(left / trial[0].of[ch].changes);
   }
 }
 
 done_t gusts_of(const set_t *s, double *const residual[CHANNELS], const double white[CH_FORCES],
                 unsigned long seed, gusts_t *to, why_t *why) {
-  lags_t trial[TRIALS], log = {.changes = {0.0}};
+  lags_t trial[TRIALS], log = {.of = {{.changes = 0.0}}};
   double least = HUGE_VAL;
   *to = (gusts_t){.tau_s = GUST_QUICK_S};
   TRY(add_forces(s, residual, &log, why));
@@ -231,7 +175,7 @@ done_t gusts_of(const set_t *s, double *const residual[CHANNELS], const double w
   for (int k = 0; k < TAUS; k++) {
     double left = 0.0, sd[CH_FORCES];
     for (int ch = 0; ch < CH_FORCES; ch++) {
-      const fit_t f = fit(log.of[ch], trial[k].of[ch], trial[WHITE].of[ch]);
+      const fit_t f = fit(log.of[ch].lag, trial[k].of[ch].lag, trial[WHITE].of[ch].lag);
       left += f.left;
       sd[ch] = sqrt(f.lasting);
     }

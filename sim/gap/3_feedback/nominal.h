@@ -43,14 +43,15 @@ typedef struct {
   slow_t slow_pos_m, slow_vel_mps, slow_angle_rad; // lasting errors of the estimates, besides
   double force_mps2[3], force_tau_s;               // disturbing forces, sd and correlation time (gusts.h)
   double quick_mps2[3];                            // and forces that last for GUST_QUICK_S, sd
-  double turn_radps2[3], turn_tau_s;               // and moments
-  const flown_by_t *flown_by;                      // who flew, if the vehicle file says so; null: not known
+  double turn_radps2[3], turn_tau_s;               // and moments, as rows show them
+  double turn_quick[3];       // share (0 to 1) of their variance that no two steps have in common
+  const flown_by_t *flown_by; // who flew, if the vehicle file says so; null: not known
 } closed_loop_t;
 
-// Returns how the flights of a set were flown and measured, with disturbing forces left at 0. residual: of
-// the best model so far, by channel and row of the set.
-closed_loop_t closed_loop_of(const set_t *s, const model_t *m, const flown_by_t *by,
-                             double *const residual[CHANNELS]);
+// Finds how the flights of a set were flown and measured, with disturbing forces left at 0. residual: of the
+// best model so far, by channel and row of the set. FAILED: no memory.
+MUST_CHECK done_t closed_loop_of(closed_loop_t *w, const set_t *s, const model_t *m, const flown_by_t *by,
+                                 double *const residual[CHANNELS], why_t *why);
 // Returns the sd of the range noise, m, as the residual of the range rows shows it.
 double closed_loop_range_m(const set_t *s, const model_t *m, const double *residual_m);
 

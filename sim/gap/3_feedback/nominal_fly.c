@@ -16,6 +16,10 @@
 #define MASK_S  0.4 // after it was put back, until its motion is its own again
 #define PUT_S   3.0 // if it is put back more often than this, it cannot fly there
 
+// s: a row's variance of white noise is the step's, times the step over this. The rows' filter passes as much
+// as a mean over this time.
+#define ROWS_S 0.1
+
 static double step_of(const grid_t *g) {
   const double log_s = g->period_s / g->every;
   return log_s / nominal_steps(log_s);
@@ -51,7 +55,13 @@ static void find_decays(nominal_flight_t *f, double step_s) {
   f->angle_keeps = decay_of(&w->slow_angle_rad, step_s);
   f->force_keeps = disturbance_of(w->force_mps2, mass_kg, w->force_tau_s, step_s);
   f->quick_keeps = disturbance_of(w->quick_mps2, mass_kg, GUST_QUICK_S, step_s);
-  f->turn_keeps = disturbance_of(w->turn_radps2, f->m->frame.inertia_kgm2, w->turn_tau_s, step_s);
+  double lasts[3], news[3];
+  for (int k = 0; k < 3; k++) {
+    lasts[k] = w->turn_radps2[k] * sqrt(1.0 - w->turn_quick[k]);
+    news[k] = f->m->frame.inertia_kgm2[k] * w->turn_radps2[k] * sqrt(w->turn_quick[k] * ROWS_S / step_s);
+  }
+  f->turn_keeps = disturbance_of(lasts, f->m->frame.inertia_kgm2, w->turn_tau_s, step_s);
+  f->new_b_Nm = d3_of(news);
 }
 
 static d3_t drifted(d3_t off, const decay_t *d, const double drawn[3]) {
@@ -65,12 +75,20 @@ static void drift(nominal_flight_t *f, const double drawn[LASTS]) {
   f->angle_off_rad = drifted(f->angle_off_rad, &f->angle_keeps, drawn + 6);
 }
 
+// Draws nothing where there is none, so that the other numbers stay what they were.
+static d3_t new_moment(nominal_flight_t *f) {
+  double drawn[4]; // drawn in pairs; the last is unused
+  if (!(d3_norm(f->new_b_Nm) > 0.0)) return d3(0.0, 0.0, 0.0);
+  random_triangles(f->shakes, 4, drawn);
+  return d3(f->new_b_Nm.x * drawn[0], f->new_b_Nm.y * drawn[1], f->new_b_Nm.z * drawn[2]);
+}
+
 // Returns the disturbance one step later. It is part of the nominal flight, not of the model.
 static push_t shaken(nominal_flight_t *f, const double drawn[SHAKE]) {
   f->gust_w_N = drifted(f->gust_w_N, &f->force_keeps, drawn);
   f->disturbs_b_Nm = drifted(f->disturbs_b_Nm, &f->turn_keeps, drawn + 3);
   f->quick_w_N = drifted(f->quick_w_N, &f->quick_keeps, drawn + 6);
-  return (push_t){d3_add(f->gust_w_N, f->quick_w_N), f->disturbs_b_Nm};
+  return (push_t){d3_add(f->gust_w_N, f->quick_w_N), d3_add(f->disturbs_b_Nm, new_moment(f))};
 }
 
 static void shake(nominal_flight_t *f) {

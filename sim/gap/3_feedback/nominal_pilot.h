@@ -29,6 +29,7 @@ typedef struct {
   body_t body;
   random_t *random, *shakes; // for what is seen, and for what disturbs
   d3_t gust_w_N, quick_w_N, disturbs_b_Nm;
+  d3_t new_b_Nm;             // sd of the moment that is new at each step
   gap_flight_t *log, *truth; // truth: the log without errors; may be null
   int steps;                 // of a row
   nominal_row_t row;         // in a log of means: the present one

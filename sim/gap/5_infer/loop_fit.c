@@ -3,13 +3,14 @@
 
 #include "gap/2_predict/lines.h"
 #include "gap/3_feedback/gusts.h"
+#include "gap/3_feedback/stirs.h"
 #include "gap/5_infer/unknown.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct {
-  double of[3]; // mean squares of rows, by axis
+  double of[3], all[3]; // mean squares of rows, by axis: of what stirs (stirs.h), and of all
 } squares_t;
 
 static double mean_squares(const double *v, int n) {
@@ -23,20 +24,23 @@ static double mean_squares(const double *v, int n) {
 static done_t moments_left(squares_t *left, set_t *s, const model_t *m, lines_t *l, why_t *why) {
   TRY(residual_lines(s, m, l, why));
   for (int k = 0; k < 3; k++) {
-    if (s->n_grid > 1) rows_center(&s->smooth, l->r[CH_WX + k]);
-    left->of[k] = mean_squares(l->r[CH_WX + k], s->smooth.n);
+    double *const v = l->r[CH_WX + k];
+    stirs_t stirs = {.share = 0.0};
+    if (s->n_grid > 1) rows_center(&s->smooth, v);
+    TRY(stirs_add(&stirs, s, v, why));
+    left->of[k] = stirs_all(&stirs);
+    left->all[k] = mean_squares(v, s->smooth.n);
   }
   return DONE;
 }
 
-// Reads noise and disturbances off the log. Moments are read before unknown_clean(), and of one flight with
-// their mean: on real vehicles they are large and slow, and control cancels them, which nominal flights are
-// to show.
+// Reads noise and disturbances off the log. Moments are read before unknown_clean(): on real vehicles they
+// are large and slow, and control cancels them, which nominal flights are to show.
 static done_t read_off(closed_loop_t *loop, squares_t *left, set_t *s, const model_t *m, const flown_by_t *by,
                        unsigned long seed, lines_t *l, why_t *why) {
   gusts_t gusts;
   TRY(moments_left(left, s, m, l, why));
-  *loop = closed_loop_of(s, m, by, l->r);
+  TRY(closed_loop_of(loop, s, m, by, l->r, why));
   const double *const white = s->grid[0].acceleration_made ? loop->vel_mps : loop->acc_mps2;
   TRY(gusts_of(s, l->r, white, seed, &gusts, why));
   TRY(unknown_clean(s, m, l->r, why));
@@ -89,7 +93,7 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   for (int k = 0; k < 3; k++) {
     calm.turn_radps2[k] = 0.0;
     // Begin with all that the log leaves; an axis that is not compared gets none.
-    loop->turn_radps2[k] = residual_has(s, CH_WX + k) ? fmax(loop->turn_radps2[k], sqrt(log->of[k])) : 0.0;
+    loop->turn_radps2[k] = residual_has(s, CH_WX + k) ? fmax(loop->turn_radps2[k], sqrt(log->all[k])) : 0.0;
   }
   const closed_loop_t *const flown[] = {&calm, loop};
   squares_t *const seen[] = {&none, &some};

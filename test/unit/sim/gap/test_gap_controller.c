@@ -2,6 +2,7 @@
 // noise what it did in the log.
 #include "base/by_size.h"
 #include "base/random.h"
+#include "gap/2_predict/lines.h"
 #include "exam/flights.h"
 #include "gap/diagnose.h"
 #include "rig/gap_logs.h"
@@ -35,45 +36,87 @@ static done_t rig_make(rig_t *r, bool indi, why_t *why) {
   TRY(set_make(&r->set, grid, 1, why));
   residual_room(&r->set, residual);
   TRY(residual_of(&r->set, &r->vehicle, residual, why));
-  r->loop = closed_loop_of(&r->set, &r->vehicle, NULL, residual);
+  TRY(closed_loop_of(&r->loop, &r->set, &r->vehicle, NULL, residual, why));
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
   return DONE;
 }
 
-// By row of the turning: first order, 2 rad/s2 of 0.3 s; or nothing, and 8 rad/s2 from half way on.
-static void put_turning(const rig_t *r, bool step, double *const residual[CHANNELS]) {
+typedef enum { GUSTS, NEW_AT_EACH_ROW, STEP } turning_t;
+
+// By row of the turning: first order, 2 rad/s2 of 0.3 s; white, 2 rad/s2; or nothing, and 8 rad/s2 from half
+// way on.
+static void put_turning(const rig_t *r, turning_t what, double *const residual[CHANNELS]) {
   const int n = r->set.smooth.n;
-  const double keep = exp(-1.0 / RESIDUAL_HZ / 0.3), fresh = 2.0 * sqrt(1.0 - keep * keep);
+  const double keep = what == GUSTS ? exp(-1.0 / RESIDUAL_HZ / 0.3) : 0.0,
+               fresh = 2.0 * sqrt(1.0 - keep * keep);
   random_t *const random = random_open(11);
   for (int ch = CH_WX; ch < CH_SMOOTH; ch++) {
     double now = 0.0;
     for (int i = 0; i < n; i++) {
       now = keep * now + fresh * random_normal(random);
-      residual[ch][i] = !step ? now : i < n / 2 ? 0.0 : 8.0;
+      residual[ch][i] = what != STEP ? now : i < n / 2 ? 0.0 : 8.0;
     }
   }
   random_close(random);
 }
 
-TEST(gap_takes_a_moment_that_changes_once_for_one_that_stands) {
+TEST(gap_takes_no_moment_that_begins_and_stays_for_a_disturbance) {
   static const struct {
-    bool step;
-    double least_s, most_s;
-  } row[] = {{false, 0.2, 0.4}, {true, 10.0, 60.0}};
+    const char *what;
+    turning_t turning;
+    double turn_radps2, error_radps2, quick;
+  } row[] = {{"gusts", GUSTS, 2.0, 0.6, 0.0},
+             {"new at each row", NEW_AT_EACH_ROW, 2.0, 0.2, 1.0},
+             {"a step", STEP, 0.0, 0.01, 0.0}};
   rig_t r;
   why_t why = {""};
   double *residual[CHANNELS];
   if (!CHECK_OK(rig_make(&r, false, &why))) return;
   residual_room(&r.set, residual);
-  for (int i = 0; i < 2; i++) {
-    ROW("%s", row[i].step ? "a step" : "gusts");
-    put_turning(&r, row[i].step, residual);
-    const closed_loop_t loop = closed_loop_of(&r.set, &r.vehicle, NULL, residual);
-    CHECK(loop.turn_tau_s > row[i].least_s && loop.turn_tau_s < row[i].most_s);
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    ROW("%s", row[i].what);
+    put_turning(&r, row[i].turning, residual);
+    closed_loop_t loop;
+    CHECK_OK(closed_loop_of(&loop, &r.set, &r.vehicle, NULL, residual, &why));
+    for (int k = 0; k < 3; k++) {
+      CHECK_NEAR(loop.turn_radps2[k], row[i].turn_radps2, row[i].error_radps2);
+      CHECK_NEAR(loop.turn_quick[k], row[i].quick, 0.3);
+    }
+    if (row[i].turning == GUSTS) CHECK(loop.turn_tau_s > 0.2 && loop.turn_tau_s < 0.4);
   }
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
   set_free(&r.set);
   gap_flight_free(&r.flight);
+}
+
+// Nothing else shakes it, so that the rows have what the loop says, lasting or new at each step.
+TEST(gap_nominal_flights_are_turned_by_as_much_as_rows_show) {
+  for (int quick = 0; quick < 2; quick++) {
+    rig_t r;
+    why_t why = {""};
+    along_t a;
+    lines_t l;
+    ROW("%s", quick ? "new at each step" : "lasting");
+    if (!CHECK_OK(rig_make(&r, false, &why))) return;
+    closed_loop_t *const w = &r.loop;
+    for (int k = 0; k < 3; k++) {
+      w->turn_radps2[k] = 1.0;
+      w->turn_quick[k] = quick;
+      w->gyro_radps[k] = w->force_mps2[k] = w->quick_mps2[k] = 0.0;
+    }
+    w->turn_tau_s = 0.3;
+    if (!CHECK_OK(nominal_along(&a, &r.set, &r.vehicle, w, 77, &why))) return;
+    CHECK_OK(residual_lines(&a.is, &r.vehicle, &l, &why));
+    for (int ch = CH_WX; ch < CH_SMOOTH; ch++) {
+      double squares = 0.0;
+      for (int i = 0; i < a.is.smooth.n; i++) squares += l.r[ch][i] * l.r[ch][i];
+      CHECK_NEAR(sqrt(squares / a.is.smooth.n), 1.0, 0.25);
+    }
+    lines_free(&l);
+    along_free(&a);
+    set_free(&r.set);
+    gap_flight_free(&r.flight);
+  }
 }
 
 // The last one is more than its motors follow.
@@ -87,7 +130,8 @@ TEST(gap_leads_a_nose_as_much_as_what_is_left_goes_with_its_turning) {
   for (unsigned k = 0; k < sizeof goes_per_s / sizeof *goes_per_s; k++) {
     for (int i = 0; i < r.set.smooth.n; i++)
       residual[CH_WZ][i] = goes_per_s[k] * r.set.grid[0].point[r.set.smooth.point[i]].rate_b_radps.z;
-    const closed_loop_t loop = closed_loop_of(&r.set, &r.vehicle, NULL, residual);
+    closed_loop_t loop;
+    CHECK_OK(closed_loop_of(&loop, &r.set, &r.vehicle, NULL, residual, &why));
     const double gain_per_s = loop.rate_gain[2];
     ROW("%g 1/s: %g of %g 1/s", goes_per_s[k], loop.nose_lead, gain_per_s);
     if (goes_per_s[k] < 1000.0)

@@ -250,7 +250,7 @@ static done_t pilot_read(closed_loop_t *read, const gap_track_t *r, const model_
   TRY(nominal_set(&set, &(gap_flights_t){&flight, 1}, false, m, why));
   TRY(lines_make(&left, &set, why));
   TRY(residual_of(&set, m, left.r, why));
-  *read = closed_loop_of(&set, m, told_Hz > 0.0 ? &by : NULL, left.r);
+  TRY(closed_loop_of(read, &set, m, told_Hz > 0.0 ? &by : NULL, left.r, why));
   read->flown_by = NULL;
   lines_free(&left);
   set_free(&set);
@@ -299,7 +299,8 @@ TEST(gap_believes_gains_that_explain_what_the_commands_change_by) {
     if (row[i].missed) r.set.grid[0].command_Hz = 1e4;
     command(&r, row[i].flown, row[i].other);
     CHECK_OK(residual_lines(&r.set, &r.vehicle, &left, &why));
-    const closed_loop_t read = closed_loop_of(&r.set, &r.vehicle, NULL, left.r);
+    closed_loop_t read;
+    CHECK_OK(closed_loop_of(&read, &r.set, &r.vehicle, NULL, left.r, &why));
     for (int k = 0; k < 2; k++) CHECK_NEAR(read.rate_gain[k], row[i].gain, 0.05 * row[i].gain);
     CHECK_NEAR(read.swift, row[i].swift, 0.07);
     CHECK_NEAR(read.rate_gain[2], row[i].yaw, 0.05 * row[i].yaw);
