@@ -1,4 +1,4 @@
-# A moment that changes once in a flight is taken for one of 3 s.
-# file: sim/gap/3_feedback/closed_loop.c
-# test: gap_takes_a_moment_that_changes_once
-s/^#define STANDS_S 60.0/#define STANDS_S 3.0/
+# A moment that begins in a flight, and stays, is taken for a disturbance of the whole flight.
+# file: sim/gap/3_feedback/stirs.c
+# test: gap_takes_no_moment_that_begins
+s/nth_smallest(room, changes, (changes - 1) \/ 2)/nth_smallest(room, changes, changes - 1)/

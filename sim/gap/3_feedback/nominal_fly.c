@@ -16,7 +16,7 @@
 #define MASK_S  0.4 // after it was put back, until its motion is its own again
 #define PUT_S   3.0 // if it is put back more often than this, it cannot fly there
 
-#define ROWS_S 0.1 // s: the rows' filter passes as much white noise as a mean over this time
+#define ROWS_S 0.085 // s: the rows' filter passes as much white noise as a mean over this time
 
 static double step_of(const grid_t *g) {
   const double log_s = g->period_s / g->every;
