@@ -144,12 +144,13 @@ static void add_difference(candidates_t *c, const model_t *m, const fx_use_t *ow
   }
 }
 
-// Adds every shape of the form of `use`, each in every kind.
+// Adds every shape of the form of `use`, each in every kind that the effect's first numbers have.
 static void add_shapes(candidates_t *c, const model_t *m, fx_use_t use, numbers_t of) {
   const fx_t *const fx = use.fx;
   const double *shape;
   const int shapes = fx_use_shapes(&use, &shape);
-  for (int kind = 0; kind == 0 || kind < fx->n_kind; kind++)
+  const int kinds = of.from > 0 ? 1 : fx->n_kind;
+  for (int kind = 0; kind == 0 || kind < kinds; kind++)
     for (int i = 0; i == 0 || i < shapes; i++) {
       if (shapes) use.p[fx->shape_param] = shape[i] * by_cell(c, fx);
       if (fx->n_kind) use.p[fx_use_kind(&use)] = fx->kind[kind];
@@ -325,9 +326,16 @@ double candidate_possible(const candidate_t *c, int k, double value) {
   return fmin(fmax(value, c->least[k]), param->max);
 }
 
+// True if only numbers are there that are a candidate of their own: these have no kinds.
+static bool is_apart(const fx_use_t *use) {
+  bool others = false;
+  for (int k = 0; k < use->fx->size_apart; k++) others = others || fx_use_size(use, k) != 0.0;
+  return use->fx->size_apart && !others;
+}
+
 fx_use_t effect_whole(const model_t *base, const fx_use_t *use) {
-  fx_use_t whole = *use;
   const fx_use_t *const own = model_fx(base, use->fx);
+  fx_use_t whole = own && is_apart(use) ? *own : *use;
   for (int k = 0; own && k < use->fx->n_size; k++)
     fx_use_resize(&whole, k, fx_use_size(own, k) + fx_use_size(use, k));
   return whole;

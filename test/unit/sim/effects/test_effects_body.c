@@ -128,6 +128,8 @@ TEST(wind_that_the_rotors_feel_pushes_in_their_plane) {
   check_d3(felt(&m, &start).acc_b_mps2, 0.303951 * cos(0.3), 0.0, 0.303951 * sin(0.3), 1e-6);
   wind->p[8] = 1.0;
   check_d3(felt(&m, &start).acc_b_mps2, 0.303951 * cos(0.3), 0.0, 0.0, 1e-6);
+  wind->p[0] = 0.0, wind->p[2] = 0.01; // what lifts it acts as a whole
+  check_d3(felt(&m, &start).acc_b_mps2, -0.303951 * sin(0.3), 0.0, 0.303951 * cos(0.3), 1e-6);
 }
 
 TEST(gusts_have_the_spread_and_the_memory_they_say) {

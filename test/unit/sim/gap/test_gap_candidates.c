@@ -237,14 +237,13 @@ TEST(an_effect_of_the_file_is_one_candidate_whose_numbers_are_differences) {
   candidates_free(&c);
 }
 
-// Nothing that is tried in shapes or kinds has numbers apart: which of them would go with which is not said.
-TEST(every_effect_with_numbers_apart_has_a_name_for_them_and_no_other_forms) {
+// Nothing that is tried in shapes has numbers apart: which of them would go with which is not said.
+TEST(every_effect_with_numbers_apart_has_a_name_for_them_and_no_other_shapes) {
   for (int i = 0; i < fx_count; i++) {
     ROW("%s", fx_table[i]->name);
     CHECK(!fx_table[i]->size_apart == !fx_table[i]->apart_name &&
           fx_table[i]->size_apart < fx_table[i]->n_size + 1);
-    CHECK(!fx_table[i]->size_apart ||
-          (!fx_table[i]->n_shape && !fx_table[i]->n_kind && !fx_table[i]->surface));
+    CHECK(!fx_table[i]->size_apart || (!fx_table[i]->n_shape && !fx_table[i]->surface));
   }
 }
 
@@ -261,7 +260,7 @@ TEST(numbers_that_have_other_rivals_are_a_candidate_of_their_own) {
   for (int i = 0; i < c.n; i++) {
     const candidate_t *const own = &c.candidate[i];
     if (own->use.fx != fx_find("accel_bias")) {
-      CHECK(own->from == 0 && own->to == own->n);
+      CHECK(own->use.fx->size_apart || (own->from == 0 && own->to == own->n));
       continue;
     }
     *(own->from == 0 ? &level : &upright) = i;
