@@ -1,4 +1,4 @@
 # A force upwards takes the kind from the force along the floor.
 # file: sim/gap/4_candidates/candidates.c
 # test: gap_numbers_apart
-s/own \&\& is_apart(use) ? \*own : \*use/*use/
+s/own \&\& is_apart(use) ?/own \&\& is_apart(use) \&\& !own ?/

@@ -34,7 +34,7 @@
 #define OUTER_S    0.01 // s, period of its position loop
 
 #define STANDS_S     60.0 // s: as long as a nominal flight. What correlates for longer, stands in it
-#define TURN_LEAST_S 0.05 // s: rows, filtered at 5 Hz, do not tell shorter times apart
+#define TURN_LEAST_S 0.05 // s: rows, filtered at 8 Hz, do not tell shorter times apart
 
 static double clamp(double v, double lo, double hi) {
   return v >= lo ? fmin(v, hi) : lo; // NaN: lo
@@ -65,12 +65,13 @@ static double noise_of(const grid_t *g, const double *v) {
 #define ALTERNATES (-0.5)
 #define JUMPS      (4.0 * sqrt(20.0)) // times the sd: a third difference beyond is no noise
 
-// True if third differences of a signal are white noise.
+// True if a signal's third differences, but for jumps, are those of white noise.
 static bool is_noise(const grid_t *g, const double *v) {
+  const double most = JUMPS * noise_of(g, v);
   double squares = 0.0, next = 0.0;
   for (int i = g->from + 4; i < g->from + g->samples; i++) {
     const double d = third(v, i), before = third(v, i - 1);
-    if (isfinite(d) && isfinite(before)) squares += d * d, next += d * before;
+    if (fabs(d) < most && fabs(before) < most) squares += d * d, next += d * before;
   }
   return next < ALTERNATES * squares;
 }
@@ -234,7 +235,7 @@ static void find_lead(const set_t *s, const model_t *m, closed_loop_t *w) {
     if (told && !is_noise(g, turn)) continue;
     const double gain = w->rate_gain[axis];
     const double d =
-        told ? (-answer_to(g, turn, g->flight->v[SIG_GX + axis]) / by_motors - gain) / 1.75
+        told ? (-answer_to(g, turn, g->flight->v[SIG_GX + axis]) / by_motors - gain) / (35.0 / 20.0)
              : lead_of(noise, w->gyro_radps[axis], gain, row_s / call_s, g->flight->rows_are_means);
     w->rate_lead[axis] = fmin(fmax(d, 0.0) * call_s, LEAD_MOST / (axis == 2 ? yaw_at_once(m) : 1.0));
   }
@@ -272,9 +273,9 @@ static done_t find_moments(const set_t *s, double *const r[CHANNELS], closed_loo
     const double all = stirs_all(&stirs), own = fmax(all - filtered(&s->grid[0], w->gyro_radps[k]), 0.0);
     w->turn_radps2[k] = sqrt(own);
     if (!(own > 0.0)) continue;
-    const double correlation = stirs_lasting(&stirs) / own;
-    tau_s -= apart_s / log(clamp(correlation * own / all, least, exp(-apart_s / STANDS_S))) / 3.0;
-    w->turn_quick[k] = 1.0 - clamp(correlation / least, 0.0, 1.0);
+    const double lasting = stirs_lasting(&stirs);
+    tau_s -= apart_s / log(clamp(lasting / all, least, exp(-apart_s / STANDS_S))) / 3.0;
+    w->turn_quick[k] = 1.0 - clamp(lasting / own / least, 0.0, 1.0); // gyro noise is no moment
   }
   w->turn_tau_s = clamp(tau_s, TURN_LEAST_S, STANDS_S);
   return DONE;

@@ -93,6 +93,8 @@ static done_t try_all(const set_t *s, unsigned long seed, lags_t trial[TRIALS], 
       each = add_trial(s, k, seed + (unsigned long)i, &trial[k], &own);
     for (int ch = 0; ch < CH_FORCES; ch++) {
       trial[k].of[ch].changes /= times;
+      trial[k].of[ch].share /= times;
+      trial[k].of[ch].level /= times;
       for (int lag = 0; lag < STIRS_LAGS; lag++) trial[k].of[ch].lag[lag] /= times;
     }
     if (each == DONE) continue;

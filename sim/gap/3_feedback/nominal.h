@@ -5,9 +5,10 @@
 // The pilot is the one that the vehicle file names ([controller], nominal_known.h), else a cascade of
 // proportional loops whose gains are fitted to the log: moments on rates and attitude, thrust on climb and
 // height. Where the model turns less than the log's vehicle with these gains, they are raised (swiftness.c).
-// The rates have as much lead as makes the commands as noisy as the log's. Noise and disturbance are those of
-// the log: sensor noise is read off the differences of successive samples, disturbing forces (gusts.h) and
-// moments, first-order Gauss-Markov, off what the residual has beyond that.
+// The rates have as much lead as makes the commands as noisy as the log's or, where every command is told to
+// be logged, as their answer to the noise of the rates says. Noise and disturbance are those of the log:
+// sensor noise is read off the differences of successive samples, disturbing forces (gusts.h) and moments,
+// first-order Gauss-Markov or new at each step, off what the residual has beyond that.
 #ifndef SIM_GAP_3_FEEDBACK_NOMINAL_H
 #define SIM_GAP_3_FEEDBACK_NOMINAL_H
 

@@ -29,7 +29,8 @@ static inline double stirs_lasting(const stirs_t *s) {
 }
 
 // Adds those of a channel's rows (smooth ones). A moment or force that begins in a flight, and stays, is in
-// one change of many, and in one stretch of many, and does not count. FAILED: no memory.
+// two changes of many, and in one stretch of many, and does not count. The quieter half has less than all
+// rows, of noise, too: compare it with the same of other flights. FAILED: no memory.
 MUST_CHECK done_t stirs_add(stirs_t *sum, const set_t *s, const double *v, why_t *why);
 
 #endif

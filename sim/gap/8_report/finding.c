@@ -37,7 +37,8 @@ static void take_numbers(finding_t *f) {
                error > 0.0    ? NULL
                : isnan(error) ? "not known"
                               : "the best of those tried");
-  if (f->fx->n_kind) take_other(f, param, fx_use_kind(f->use), 0.0, "the better of those tried");
+  if (f->fx->n_kind && f->from == 0)
+    take_other(f, param, fx_use_kind(f->use), 0.0, "the better of those tried");
 }
 
 const char *const report_feedback[] = {"", "instrument too weak", "may be made by feedback",

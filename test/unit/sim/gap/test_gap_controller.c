@@ -2,8 +2,8 @@
 // noise what it did in the log.
 #include "base/by_size.h"
 #include "base/random.h"
-#include "gap/2_predict/lines.h"
 #include "exam/flights.h"
+#include "gap/2_predict/lines.h"
 #include "gap/diagnose.h"
 #include "rig/gap_logs.h"
 #include "rig/programs.h"
