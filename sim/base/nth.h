@@ -10,6 +10,9 @@ extern "C" {
 // stands there, with no larger number before it and no smaller one after it. v must not contain NaN.
 double nth_smallest(double *v, int n, int k);
 
+// Median of the absolute value of a normal number of sd 1.
+#define NTH_NORMAL_MEDIAN 0.6745
+
 #ifdef __cplusplus
 }
 #endif

@@ -29,12 +29,10 @@ static void load(const fx_use_t *use, const fx_motion_t *motion, load_t *load) {
 
 const fx_t fx_wind = {
     .name = "wind",
-    .brief =
-        "a constant force (plane 1: of fx and fy the part in the rotors' plane alone), gusts, and moving "
-        "air that the drags feel",
+    .brief = "a constant force (plane 1: of fx and fy the part in the rotors' plane alone), gusts, and "
+             "moving air that the drags feel",
     .law = "F = (fx, fy, fz), world axes, plane 1: of (fx, fy) the part in the rotors' plane; and gusts of "
-           "deviation "
-           "`gust` and time constant `tau`; the air moves by (vx, vy, vz)",
+           "deviation `gust` and time constant `tau`; the air moves by (vx, vy, vz)",
     .fly = "a full yaw turn on the spot",
     .over = {"time"},
     .needs = FX_NEEDS_ATTITUDE,

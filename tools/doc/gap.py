@@ -160,7 +160,7 @@ def in_short(said: str) -> Iterator[str]:
     for line in lines:
         if re.match("gap:|Nothing|These|Something|unknown:", line):
             yield line
-        elif named := re.match("(?!note|left)([a-z_]+): ", line):
+        elif named := re.match("(?!note|left)([a-z_]+(?: z)?): ", line):
             yield f"{named[1]} {next(lines)}"
         elif line.startswith("  force_z ") and " m/s2 " in line and " changes " not in line:
             yield "force_z m/s2, held out: {2} -> {3}".format(*line.split())

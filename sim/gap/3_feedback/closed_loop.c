@@ -55,14 +55,15 @@ static double noise_of(const grid_t *g, const double *v) {
     const double x = fabs(third(v, i));
     if (isfinite(x)) d[n++] = x;
   }
-  const double sd = n ? nth_smallest(d, n, n / 2) / 0.6745 / sqrt(20.0) : 0.0;
+  const double sd = n ? nth_smallest(d, n, n / 2) / NTH_NORMAL_MEDIAN / sqrt(20.0) : 0.0;
   free(d);
   return sd;
 }
 
-// Correlation of third differences with the next ones: of white noise -0.75, of motion more. Above this they
-// are motion, at least in part.
-#define ALTERNATES (-0.5)
+// Correlation of third differences with the next ones: of white noise -0.75, of motion up to 1. Above nine
+// tenths of it something else is in them. Logs of three simulators have -0.70 to -0.80, or 0.68 to 1 where
+// they are free of noise.
+#define ALTERNATES (-0.9 * 0.75)
 #define JUMPS      (4.0 * sqrt(20.0)) // times the sd: a third difference beyond is no noise
 
 // True if a signal's third differences, but for jumps, are those of white noise.

@@ -113,8 +113,8 @@ static bool shake_first(nominal_flight_t *f, unsigned long seed) {
 
 // --- sensors ----------------------------------------------------------------------------------------------
 
-#define SEEN        17 // numbers per step for errors of one sample
-#define RANGE_DRAWN 16 // which of them is the range's, the last
+#define RANGE_DRAWN 16 // number of the range's; those of a row's other columns come before
+#define SEEN        (RANGE_DRAWN + 1)
 
 _Static_assert(SHAKE % 2 == 0 && (LASTS + SEEN) % 2 == 0, "random_triangles() draws pairs");
 

@@ -5,8 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LEVEL_CHANGES 4      // what begins within a stretch is in two changes, and the median passes over it
-#define NORMAL_MEDIAN 0.6745 // of the absolute value of a normal number of sd 1
+#define LEVEL_CHANGES 4 // what begins within a stretch is in two changes, and the median passes over it
 
 enum { STRETCH_BLOCKS = 2 }; // 4 s: a vehicle takes seconds to pass through something, and a gust less
 
@@ -50,7 +49,7 @@ static double level_of(const stretch_t *stretch, int n, double *room) {
     if (stretch[k].flight == stretch[k - 1].flight)
       room[changes++] = fabs(stretch[k].mean - stretch[k - 1].mean);
   if (changes < LEVEL_CHANGES) return 0.0;
-  const double change = nth_smallest(room, changes, (changes - 1) / 2) / NORMAL_MEDIAN;
+  const double change = nth_smallest(room, changes, (changes - 1) / 2) / NTH_NORMAL_MEDIAN;
   return 0.5 * change * change;
 }
 

@@ -129,7 +129,7 @@ static double alike_squares(const double *found, int n, double largest, int rows
 
 static double scatter_of(const double *found, int n, double *room) {
   for (int i = 0; i < n; i++) room[i] = fabs(found[i]);
-  return n ? nth_smallest(room, n, n / 2) / 0.6745 : 0.0;
+  return n ? nth_smallest(room, n, n / 2) / NTH_NORMAL_MEDIAN : 0.0;
 }
 
 // Finds the pulses at all rows; returns how many.

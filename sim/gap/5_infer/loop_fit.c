@@ -92,8 +92,8 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   squares_t none, some;
   for (int k = 0; k < 3; k++) {
     calm.turn_radps2[k] = 0.0;
-    // Begin with all that the log leaves; an axis that is not compared gets none.
-    loop->turn_radps2[k] = residual_has(s, CH_WX + k) ? fmax(loop->turn_radps2[k], sqrt(log->all[k])) : 0.0;
+    // Begin with all that stirs in the log; an axis that is not compared gets none.
+    loop->turn_radps2[k] = residual_has(s, CH_WX + k) ? fmax(loop->turn_radps2[k], sqrt(log->of[k])) : 0.0;
   }
   const closed_loop_t *const flown[] = {&calm, loop};
   squares_t *const seen[] = {&none, &some};
@@ -108,8 +108,8 @@ static done_t scale(closed_loop_t *loop, const squares_t *log, const set_t *s, c
   }
   for (int k = 0; k < 3; k++) {
     const double by = times(none.of[k], some.of[k], log->of[k]);
-    // At most what was read: that was before control cancelled it.
-    if (isfinite(by)) loop->turn_radps2[k] *= fmin(by, 1.0);
+    // At most all that the log leaves: that was before control cancelled it.
+    if (isfinite(by)) loop->turn_radps2[k] = fmin(by * loop->turn_radps2[k], sqrt(log->all[k]));
   }
   // A disturbance about one axis shakes the others, too: scale all so that no axis shakes more than in the
   // log.

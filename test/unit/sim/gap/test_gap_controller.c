@@ -41,40 +41,48 @@ static done_t rig_make(rig_t *r, bool indi, why_t *why) {
   return DONE;
 }
 
-typedef enum { GUSTS, NEW_AT_EACH_ROW, STEP } turning_t;
+typedef enum { GUSTS, NEW_AT_EACH_ROW, WANDERS, STEP } turning_t;
 
-// By row of the turning: first order, 2 rad/s2 of 0.3 s; white, 2 rad/s2; or nothing, and 8 rad/s2 from half
-// way on.
+// By row of the turning: first order, 2 rad/s2 of 0.3 s; white, 2 rad/s2; another moment every 4 s, 2 rad/s2;
+// or nothing, and 8 rad/s2 from 7 s before the end on.
 static void put_turning(const rig_t *r, turning_t what, double *const residual[CHANNELS]) {
-  const int n = r->set.smooth.n;
+  const rows_t *const rows = &r->set.smooth;
   const double keep = what == GUSTS ? exp(-1.0 / RESIDUAL_HZ / 0.3) : 0.0,
                fresh = 2.0 * sqrt(1.0 - keep * keep);
   random_t *const random = random_open(11);
   for (int ch = CH_WX; ch < CH_SMOOTH; ch++) {
     double now = 0.0;
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < rows->n; i++) {
       now = keep * now + fresh * random_normal(random);
-      residual[ch][i] = what != STEP ? now : i < n / 2 ? 0.0 : 8.0;
+      residual[ch][i] = what == WANDERS ? (rows->block[i] - rows->block[0]) / 2 % 2 ? -1.0 : 1.0
+                        : what != STEP  ? now
+                        : i < rows->n - (int)(7.0 * RESIDUAL_HZ) ? 0.0
+                                                                 : 8.0;
     }
   }
   random_close(random);
 }
 
+// A log of 10 s has three stretches: what begins is in most of their changes.
 TEST(gap_takes_no_moment_that_begins_and_stays_for_a_disturbance) {
   static const struct {
     const char *what;
     turning_t turning;
-    double turn_radps2, error_radps2, quick;
-  } row[] = {{"gusts", GUSTS, 2.0, 0.6, 0.0},
-             {"new at each row", NEW_AT_EACH_ROW, 2.0, 0.2, 1.0},
-             {"a step", STEP, 0.0, 0.01, 0.0}};
+    double span_s, turn_radps2, error_radps2, quick, tau_s, most_s;
+  } row[] = {{"gusts", GUSTS, 60.0, 2.0, 0.6, 0.0, 0.2, 0.4},
+             {"new at each row", NEW_AT_EACH_ROW, 60.0, 2.0, 0.2, 1.0, 0.05, 0.06},
+             {"another every 4 s", WANDERS, 60.0, 2.1, 0.1, 0.0, 45.0, 70.0},
+             {"a step", STEP, 60.0, 0.0, 0.01, 0.0, 0.0, 60.0},
+             {"a step in a short log", STEP, 10.0, 0.0, 0.01, 0.0, 0.0, 60.0}};
   rig_t r;
   why_t why = {""};
   double *residual[CHANNELS];
   if (!CHECK_OK(rig_make(&r, false, &why))) return;
   residual_room(&r.set, residual);
+  const int all = r.set.smooth.n;
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     ROW("%s", row[i].what);
+    r.set.smooth.n = (int)fmin(all, row[i].span_s * RESIDUAL_HZ);
     put_turning(&r, row[i].turning, residual);
     closed_loop_t loop;
     CHECK_OK(closed_loop_of(&loop, &r.set, &r.vehicle, NULL, residual, &why));
@@ -82,8 +90,9 @@ TEST(gap_takes_no_moment_that_begins_and_stays_for_a_disturbance) {
       CHECK_NEAR(loop.turn_radps2[k], row[i].turn_radps2, row[i].error_radps2);
       CHECK_NEAR(loop.turn_quick[k], row[i].quick, 0.3);
     }
-    if (row[i].turning == GUSTS) CHECK(loop.turn_tau_s > 0.2 && loop.turn_tau_s < 0.4);
+    CHECK(loop.turn_tau_s >= row[i].tau_s && loop.turn_tau_s < row[i].most_s);
   }
+  r.set.smooth.n = all;
   for (int ch = 0; ch < CHANNELS; ch++) free(residual[ch]);
   set_free(&r.set);
   gap_flight_free(&r.flight);

@@ -248,6 +248,23 @@ TEST(gap_names_air_that_moves_through_the_rotors_as_a_wind_in_their_plane) {
   gap_case_free(c);
 }
 
+// A cable that pulls. It was the accelerometer's bias, which the velocities contradict, as nothing else was
+// there to be named.
+TEST(gap_names_a_steady_pull_downwards_as_a_wind_that_has_no_plane) {
+  fx_use_t pull = gap_effect("wind", 0.0, 0.0);
+  pull.p[2] = -0.02; // N
+  const gap_hidden_t hidden = {1, {pull}};
+  gap_case_t *const c = gap_case(&hidden, &hidden);
+  const named_t *const named = gap_case_named(c, "wind");
+  if (CHECK(named && c->d.found.n == 1)) {
+    const candidate_t *const own = &c->d.candidates.candidate[named->candidate];
+    CHECK_TEXT(candidate_name(own), "wind z");
+    CHECK_NEAR(named->value[2], -0.02, 0.05 * 0.02);
+    CHECK(found_use(&c->d.found, named)->p[8] == 0.0);
+  }
+  gap_case_free(c);
+}
+
 // More mass under a ceiling: what else is said holds the mass among its rivals. Where the vehicle file has no
 // ceiling, so that what the ceiling does stays unexplained, it may say instead that this is to be added
 // first.
