@@ -176,6 +176,12 @@ TEST(a_ground_beside_a_ceiling_is_told_in_its_own_form) {
   CHECK(grounds == 1);
 }
 
+// The scale adds what the sag takes away: neither alone is sure, and a bias of the accelerometer was named, with
+// a difference of the flights that no name filled.
+TEST(a_sag_is_told_beside_a_scale_that_hides_it) {
+  named_alone(EXAM_TWO, 62039);
+}
+
 // The sensor reads 7 cm too little, but never below 4 cm: that is no floor of 6 or 8 cm.
 TEST(a_range_bias_is_told_alone_where_the_sensor_is_at_its_floor) {
   static const unsigned long seed[] = {175106, 175166};

@@ -100,6 +100,12 @@ const fx_t *round_fx(const round_t *r, int candidate) {
   return r->c->candidate[candidate].use.fx;
 }
 
+double round_left(const round_t *r, const choice_t *choice) {
+  double left = score_left(&r->score, choice, NULL);
+  for (int i = 0; i < choice->n; i++) left += 2.0 * log(candidates_of(r->c, choice->of[i]));
+  return left;
+}
+
 bool round_tells_turning(const round_t *r) {
   const choice_t nothing = {.n = 0};
   bool told = false;

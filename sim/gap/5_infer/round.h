@@ -42,6 +42,12 @@ const fx_t *round_fx(const round_t *r, int candidate);
 // others must not depend on shapes that were found for another choice.
 choice_t round_reshaped(const round_t *r, const choice_t *choice);
 
+// Returns what a choice leaves (score_left), plus twice the logarithm of how many forms each of its effects
+// has, as if all forms were equally likely. Of choices that leave the same, the one with fewest forms is
+// taken: in a log without moments a weak rotor leaves what a thrust scale leaves, but it turns the nominal
+// flights, and the log's vehicle was not turned.
+double round_left(const round_t *r, const choice_t *choice);
+
 // True if the log tells how strongly commands tilt the vehicle: on nominal flights, what control makes of
 // noise looks like less than an inertia of typical size. Mass and thrust scale, which differ in nothing
 // else, may then both be named. An inertia about all axes does to the turning nearly what the scale does, so

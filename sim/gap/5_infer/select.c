@@ -6,6 +6,7 @@
 #include "gap/5_infer/family.h"
 #include "gap/5_infer/evidence.h"
 #include "gap/5_infer/local.h"
+#include "gap/5_infer/pairs.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,16 +25,6 @@ typedef struct selection {
   model_t timed; // the model with the timing that measured rotor speeds show
 } select_t;
 
-// Returns what a choice leaves, plus twice the logarithm of how many forms each of its effects has, as if
-// all forms were equally likely. Of choices that leave the same, the one with fewest forms is taken: in a
-// log without moments a weak rotor leaves what a thrust scale leaves, but it turns the nominal flights, and
-// the log's vehicle was not turned.
-static double left_of(const select_t *t, const choice_t *choice) {
-  double left = score_left(&t->round.score, choice, NULL);
-  for (int i = 0; i < choice->n; i++) left += 2.0 * log(candidates_of(t->round.c, choice->of[i]));
-  return left;
-}
-
 // Returns what the choice leaves with the candidate as its last one; HUGE_VAL: it is not allowed there.
 static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   const score_t *const score = &t->round.score;
@@ -43,7 +34,7 @@ static double try_with(const select_t *t, const choice_t *rest, int candidate) {
   if (!beyond_control(&t->round, &with, &v, false) || !score_allows(score, &with, &v) ||
       !score_is_sure(score, rest, &with) || score_harms(score, rest, &with))
     return HUGE_VAL;
-  return left_of(t, &with);
+  return round_left(&t->round, &with);
 }
 
 // Returns try_with() of every candidate that is not in the choice, by candidate; else HUGE_VAL.
@@ -55,7 +46,7 @@ static const double *try_each(const select_t *t, const choice_t *rest) {
 
 static bool add_best(select_t *t) {
   choice_t *const choice = &t->round.choice;
-  double best = left_of(t, choice) * (1.0 - SELECT_GAIN);
+  double best = round_left(&t->round, choice) * (1.0 - SELECT_GAIN);
   const double *const left = try_each(t, choice);
   int which = -1;
   for (int i = 0; i < t->round.c->n; i++) {
@@ -69,11 +60,34 @@ static bool add_best(select_t *t) {
   return true;
 }
 
+static bool pair_passes(const select_t *t, const hiding_t *pair) {
+  const choice_t first = choice_with(&t->round.choice, pair->of[0]);
+  const choice_t second = choice_with(&t->round.choice, pair->of[1]);
+  return try_with(t, &first, pair->of[1]) < HUGE_VAL && try_with(t, &second, pair->of[0]) < HUGE_VAL;
+}
+
+// Adds two effects that hide each other, each of which passes beside the other. False: there are none.
+static done_t add_pair(select_t *t, bool *added, why_t *why) {
+  choice_t *const choice = &t->round.choice;
+  pairs_t pairs;
+  *added = false;
+  TRY(pairs_find(&pairs, &t->round, t->been, why));
+  for (int i = 0; i < pairs.n && !*added; i++) {
+    *added = pair_passes(t, &pairs.pair[i]);
+    for (int k = 0; k < 2 && *added; k++) {
+      *choice = choice_with(choice, pairs.pair[i].of[k]);
+      t->been[pairs.pair[i].of[k]] = true;
+    }
+  }
+  pairs_free(&pairs);
+  return DONE;
+}
+
 // Replaces one of the choice by another candidate, where that leaves less by more than 2. Returns the new
 // one; -1: none.
 static int swap_one(select_t *t) {
   choice_t *const choice = &t->round.choice;
-  double best = left_of(t, choice) - 2.0; // a number takes as much by chance (Akaike): swaps end
+  double best = round_left(&t->round, choice) - 2.0; // a number takes as much by chance (Akaike): swaps end
   choice_t better = {.n = -1};
   for (int i = 0; i < choice->n; i++) {
     const choice_t rest = choice_without(choice, choice->of[i]);
@@ -241,6 +255,7 @@ static done_t step_until_still(select_t *t, why_t *why) {
     bool swapped = false, changed = prune_one(t);
     if (!changed) TRY(try_swap(t, &swapped, why));
     changed = changed || swapped || add_best(t);
+    if (!changed) TRY(add_pair(t, &changed, why));
     if (!changed) TRY(drop_echo(t, &changed, why));
     if (!changed) return DONE;
     if (!swapped) TRY(settle(t, SETTLE_ALL, why)); // a swap that is kept has settled
