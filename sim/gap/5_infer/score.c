@@ -174,7 +174,7 @@ bool score_is_rival(const score_t *j, const choice_t *own, const choice_t *other
 }
 
 // Estimates size k of the last candidate of a choice in each nominal flight, and the information that the
-// flight holds about it (may be null). Returns the number of flights.
+// flight holds about it. Returns the number of flights.
 static int nominal_values(const score_t *j, const choice_t *choice,
                           double value[FX_SIZE_MAX][NOMINAL_FLIGHTS],
                           double holds[FX_SIZE_MAX][NOMINAL_FLIGHTS]) {
@@ -184,10 +184,9 @@ static int nominal_values(const score_t *j, const choice_t *choice,
   const int flights = j->nominal ? j->nominal->n : 0;
   for (int i = 0; i < flights; i++) {
     const size_t at = (size_t)i * (size_t)(j->nominal->size * j->nominal->size);
-    lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b,
-                       holds ? inverse : NULL);
+    lsq_solve_products(j->nominal->total + at, j->nominal->size, column, n, j->ridge, b, inverse);
     for (int k = 0; k < own; k++) value[k][i] = b[n - own + k];
-    for (int k = 0; k < own && holds; k++) holds[k][i] = 1.0 / inverse[(n - own + k) * (n + 1)];
+    for (int k = 0; k < own; k++) holds[k][i] = 1.0 / inverse[(n - own + k) * (n + 1)];
   }
   return flights;
 }
@@ -202,26 +201,43 @@ double score_rms(const double *value, const double *holds, int n) {
   return all > 0.0 ? sqrt(sum / all) : 0.0;
 }
 
+// The same, as much as each would make of it in a flight that shows it as well as the log does. White errors
+// fall with the root of the information; what feedback makes does not, so a flight that holds more than the
+// log keeps its value.
+static int made_in_log(const score_t *j, const choice_t *choice,
+                       double value[FX_SIZE_MAX][NOMINAL_FLIGHTS]) {
+  int column[COLUMN_MAX];
+  double b[COLUMN_MAX], inverse[COLUMN_MAX * COLUMN_MAX], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS];
+  const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
+  const int flights = nominal_values(j, choice, value, holds);
+  if (flights) lsq_solve_products(j->g->total, j->g->size, column, n, j->ridge, b, inverse);
+  for (int k = 0; flights && k < own; k++) {
+    const double log_holds = 1.0 / inverse[(n - own + k) * (n + 1)];
+    for (int i = 0; i < flights; i++) value[k][i] *= sqrt(fmin(holds[k][i] / log_holds, 1.0));
+  }
+  return flights;
+}
+
 // Returns what feedback is taken to make of size k where no nominal flight could be flown; 0 in a first
 // look.
 static double taken_to_be(const score_t *j, const candidate_t *c, int k) {
   return j->nominal ? SELECT_LEAST * c->typical[k] : 0.0;
 }
 
-static void nominal_rms(const score_t *j, const choice_t *choice, bool alike, double rms[FX_SIZE_MAX]) {
+void score_nominal_error(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS];
-  const int flights = nominal_values(j, choice, value, alike ? NULL : holds);
+  const int flights = nominal_values(j, choice, value, holds);
   for (int k = 0; k < own->n; k++)
-    rms[k] = flights ? score_rms(value[k], alike ? NULL : holds[k], flights) : taken_to_be(j, own, k);
-}
-
-void score_nominal_error(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
-  nominal_rms(j, choice, false, rms);
+    rms[k] = flights ? score_rms(value[k], holds[k], flights) : taken_to_be(j, own, k);
 }
 
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
-  nominal_rms(j, choice, true, rms);
+  const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
+  double value[FX_SIZE_MAX][NOMINAL_FLIGHTS];
+  const int flights = made_in_log(j, choice, value);
+  for (int k = 0; k < own->n; k++)
+    rms[k] = flights ? score_rms(value[k], NULL, flights) : taken_to_be(j, own, k);
 }
 
 void score_made(const candidate_t *c, int k, double *value, int flights) {
@@ -235,7 +251,7 @@ void score_made(const candidate_t *c, int k, double *value, int flights) {
 static double over_nominal(const score_t *j, const choice_t *choice, const double size[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], sum = 0.0;
-  const int flights = nominal_values(j, choice, value, NULL);
+  const int flights = made_in_log(j, choice, value);
   int shown = 0;
   for (int k = 0; k < own->n; k++) {
     if (!gram_shows(j->g, own->first + k)) continue;
