@@ -6,10 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-// As CANDIDATES_MISFIT, for effects that control of a disturbance can mimic (fx->control_makes): an inertia
-// of a quarter of the typical one has been named where nothing was hidden.
-#define MISFIT_BESIDE 0.25
-
 // Lateness of instruments, over the least lag or delay that is named: an error of either. Without it a wrong
 // drag beside a lag is as sure as a right one.
 #define LATE 0.15
@@ -178,11 +174,10 @@ static bool widen(parts_t *p, const double *nominal, const double *blocks) {
   if (!spread_out) return false;
   for (int i = 0; i < c->n; i++) {
     const fx_t *const fx = c->candidate[i].use.fx;
-    const double misfit = fx->control_makes ? MISFIT_BESIDE : CANDIDATES_MISFIT;
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
-      p->wide[column] += misfit * misfit / candidates_of(c, i) + late * late;
+      p->wide[column] += CANDIDATES_MISFIT * CANDIDATES_MISFIT / candidates_of(c, i) + late * late;
       if (fx->control_makes) p->wide[column] += other_pilots(p, column, nominal[column]);
     }
   }
