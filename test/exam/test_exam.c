@@ -176,8 +176,8 @@ TEST(a_ground_beside_a_ceiling_is_told_in_its_own_form) {
   CHECK(grounds == 1);
 }
 
-// The scale adds what the sag takes away: neither alone is sure, and a bias of the accelerometer was named, with
-// a difference of the flights that no name filled.
+// The scale adds what the sag takes away: neither alone is sure, and a bias of the accelerometer was named,
+// with a difference of the flights that no name filled.
 TEST(a_sag_is_told_beside_a_scale_that_hides_it) {
   named_alone(EXAM_TWO, 62039);
 }

@@ -1,4 +1,4 @@
-# A nominal flight that hardly shows a number counts in a gate as one that shows it as the log does.
+# A nominal flight that would not show a size counts in the gate as any other.
 # file: sim/gap/5_infer/score.c
-# test: gap_score_lets_in
-s/^    for (int i = 0; i < flights; i++) value\[k\]\[i\] \*= sqrt(fmin(holds\[k\]\[i\] \/ log_holds, 1.0));/    (void)log_holds;/
+# test: gap_score_asks_flights
+s/2 \* n < flights ? NULL : shows/n < 0 ? shows : NULL/

@@ -1,6 +1,7 @@
 // evidence.c - a beam search over sets of effects.
 #include "gap/5_infer/evidence.h"
 
+#include "base/cholesky.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -189,6 +190,57 @@ done_t evidence_odds(const round_t *r, double odds[NAMED_MAX], why_t *why) {
   for (int i = 0; i < r->choice.n; i++)
     odds[i] = any_form_log(&b, &r->choice, i) - choice_log(&b, &r->choice, i);
   close_beam(&b);
+  return DONE;
+}
+
+// Sets the information on each column that the choice, of any size, leaves. The choice's columns are at most
+// COLUMN_MAX. False: no solution.
+static bool beside_choice(const information_t *f, const round_t *r, double *left) {
+  int column[COLUMN_MAX];
+  double Q[COLUMN_MAX * COLUMN_MAX], z[COLUMN_MAX];
+  const int n = choice_columns(r->c, &r->choice, column);
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++)
+      Q[i * n + k] = f->F[column[i] * f->n + column[k]] +
+                     (i == k ? 1.0 / (EVIDENCE_TYPICAL_MOST * EVIDENCE_TYPICAL_MOST) : 0.0);
+  if (!cholesky(Q, n)) return false;
+  for (int k = 0; k < f->n; k++) {
+    for (int i = 0; i < n; i++) z[i] = f->F[column[i] * f->n + k];
+    cholesky_forward(Q, n, z);
+    left[k] = f->F[k * (f->n + 1)];
+    for (int i = 0; i < n; i++) left[k] -= z[i] * z[i];
+  }
+  return true;
+}
+
+// Returns the log odds of an effect with one number, of which the rows hold this information.
+static double odds_of(double information, double size) {
+  double sum = 0.0;
+  for (int q = 0; q < SCALES; q++) {
+    const double with = information * SCALE[q] * SCALE[q];
+    sum += exp(0.5 * information * size * size * with / (1.0 + with)) / sqrt(1.0 + with) / SCALES;
+  }
+  return log(RARE * sum);
+}
+
+// Returns the size with even odds.
+static double even_odds(double information) {
+  const double error = 1.0 / sqrt(information);
+  double less = 0.0, more = 10.0 * error;
+  while (odds_of(information, more) < 0.0 && more < HUGE_VAL) more *= 2.0;
+  for (int i = 0; i < 30; i++) {
+    const double half = 0.5 * (less + more);
+    *(odds_of(information, half) < 0.0 ? &less : &more) = half;
+  }
+  return more;
+}
+
+done_t evidence_least(const round_t *r, double *least, why_t *why) {
+  information_t f;
+  TRY(information_make(&f, r, why));
+  const bool known = beside_choice(&f, r, least);
+  for (int k = 0; k < f.n; k++) least[k] = known && least[k] > 0.0 ? even_odds(least[k]) : HUGE_VAL;
+  information_free(&f);
   return DONE;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/lsq_blocks.h"
 #include "gap/5_infer/bend.h"
+#include "gap/5_infer/evidence.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -138,7 +139,8 @@ static double gain_of_rivals(const round_t *r, int candidate, int k) {
 }
 
 // Returns the smallest size that would have been seen, over typical; 0: no compared channel depends on it.
-static double least_of(const round_t *r, const choice_t *with, double left) {
+// speaks: by column, the size from which on the rows speak for it, over typical.
+static double least_of(const round_t *r, const choice_t *with, double left, const double *speaks) {
   const int candidate = with->of[with->n - 1];
   const candidate_t *const c = &r->c->candidate[candidate];
   const verdict_t v = score_last(&r->score, with);
@@ -159,21 +161,27 @@ static double least_of(const round_t *r, const choice_t *with, double left) {
     const double rival = unit[k] * sqrt(gain_of_rivals(r, candidate, k));
     double need = fmax(fmax(wald * v.stderr_[k], nominal * rms[k]), fmax(gain[k], rival));
     need = fmax(need, fmax(SELECT_LEAST * typical, c->use.fx->size[k].least));
+    need = fmax(need, speaks[c->first + k] * typical);
     const double kept = r->nominal ? r->nominal->kept[c->first + k] : 1.0;
     least = kept > 0.0 ? fmax(least, (need + SCORE_ERRORS * error) / (kept * typical)) : HUGE_VAL;
   }
   return least;
 }
 
-static void find_least(found_t *found, const round_t *r) {
-  for (int i = 0; i < r->c->n; i++) {
+static done_t find_least(found_t *found, const round_t *r, why_t *why) {
+  double *const speaks = calloc((size_t)r->c->columns + 1, sizeof *speaks);
+  if (!speaks) return error_failed(why, "out of memory");
+  const done_t status = r->nominal ? evidence_least(r, speaks, why) : DONE; // a first look does not ask
+  for (int i = 0; i < r->c->n && status == DONE; i++) {
     const choice_t rest = choice_without(&r->choice, i);
     if (!round_fits(r, &rest, i)) continue;
     const choice_t with = choice_with(&rest, i);
-    found->least[i] = least_of(r, &with, found->left);
+    found->least[i] = least_of(r, &with, found->left, speaks);
     if (!(found->least[i] > 0.0) || choice_has(&r->choice, i)) continue;
     if (found->echo[i]) found->least[i] = HUGE_VAL;
   }
+  free(speaks);
+  return status;
 }
 
 // How far a shape is from the one asked for, in the logarithm: a name's own shape comes first (-1), else the
@@ -202,11 +210,11 @@ double found_least(const found_t *f, const candidates_t *c, const fx_t *fx, cons
 
 // --- the whole --------------------------------------------------------------------------------------------
 
-void found_describe(found_t *f, const round_t *r, const timing_t *timing) {
+done_t found_describe(found_t *f, const round_t *r, const timing_t *timing, why_t *why) {
   f->chosen = r->chosen;
   f->rounds = r->rounds;
   find_named(f, r);
   if (timing->measured && timing->candidate >= 0 && f->n < NAMED_MAX) find_timing(f, r, timing);
   sort_names(f, r);
-  find_least(f, r);
+  return find_least(f, r, why);
 }

@@ -2,7 +2,8 @@
 //
 // Forward selection sees one effect at a time. Two that pull opposite ways, such as stronger rotors and a
 // battery that sags, leave so much of each other that neither alone is sure, and none ever enters. Of such a
-// pair the two together take more than the one alone and the other alone add up to (a suppressor: Horst 1941).
+// pair the two together take more than the one alone and the other alone add up to (a suppressor: Horst
+// 1941).
 #ifndef SIM_GAP_5_INFER_PAIRS_H
 #define SIM_GAP_5_INFER_PAIRS_H
 

@@ -201,43 +201,26 @@ double score_rms(const double *value, const double *holds, int n) {
   return all > 0.0 ? sqrt(sum / all) : 0.0;
 }
 
-// The same, as much as each would make of it in a flight that shows it as well as the log does. White errors
-// fall with the root of the information; what feedback makes does not, so a flight that holds more than the
-// log keeps its value.
-static int made_in_log(const score_t *j, const choice_t *choice,
-                       double value[FX_SIZE_MAX][NOMINAL_FLIGHTS]) {
-  int column[COLUMN_MAX];
-  double b[COLUMN_MAX], inverse[COLUMN_MAX * COLUMN_MAX], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS];
-  const int n = choice_columns(j->c, choice, column), own = j->c->candidate[choice->of[choice->n - 1]].n;
-  const int flights = nominal_values(j, choice, value, holds);
-  if (flights) lsq_solve_products(j->g->total, j->g->size, column, n, j->ridge, b, inverse);
-  for (int k = 0; flights && k < own; k++) {
-    const double log_holds = 1.0 / inverse[(n - own + k) * (n + 1)];
-    for (int i = 0; i < flights; i++) value[k][i] *= sqrt(fmin(holds[k][i] / log_holds, 1.0));
-  }
-  return flights;
-}
-
 // Returns what feedback is taken to make of size k where no nominal flight could be flown; 0 in a first
 // look.
 static double taken_to_be(const score_t *j, const candidate_t *c, int k) {
   return j->nominal ? SELECT_LEAST * c->typical[k] : 0.0;
 }
 
-void score_nominal_error(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
+static void nominal_rms(const score_t *j, const choice_t *choice, bool alike, double rms[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS];
   const int flights = nominal_values(j, choice, value, holds);
   for (int k = 0; k < own->n; k++)
-    rms[k] = flights ? score_rms(value[k], holds[k], flights) : taken_to_be(j, own, k);
+    rms[k] = flights ? score_rms(value[k], alike ? NULL : holds[k], flights) : taken_to_be(j, own, k);
+}
+
+void score_nominal_error(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
+  nominal_rms(j, choice, false, rms);
 }
 
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]) {
-  const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
-  double value[FX_SIZE_MAX][NOMINAL_FLIGHTS];
-  const int flights = made_in_log(j, choice, value);
-  for (int k = 0; k < own->n; k++)
-    rms[k] = flights ? score_rms(value[k], NULL, flights) : taken_to_be(j, own, k);
+  nominal_rms(j, choice, true, rms);
 }
 
 void score_made(const candidate_t *c, int k, double *value, int flights) {
@@ -246,17 +229,31 @@ void score_made(const candidate_t *c, int k, double *value, int flights) {
   for (int i = 0; i < flights && c->least[k] >= 0.0; i++) value[i] -= fmin(mean, 0.0);
 }
 
+// Returns the rms of what nominal flights make of a number, of those that would show this size: one that
+// hardly comes near a surface errs by more than the log can. Where fewer than half would, all count.
+static double made_by_those_that_show(const double *value, const double *holds, int flights, double size) {
+  double shows[NOMINAL_FLIGHTS];
+  int n = 0;
+  for (int i = 0; i < flights; i++) {
+    const bool would = size * size * holds[i] > SCORE_ERRORS * SCORE_ERRORS;
+    shows[i] = would ? 1.0 : 0.0;
+    n += would;
+  }
+  return score_rms(value, 2 * n < flights ? NULL : shows, flights);
+}
+
 // Returns the last candidate's sizes over what feedback makes that could be taken for them, rms of those
 // that are shown.
 static double over_nominal(const score_t *j, const choice_t *choice, const double size[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
-  double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], sum = 0.0;
-  const int flights = made_in_log(j, choice, value);
+  double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS], sum = 0.0;
+  const int flights = nominal_values(j, choice, value, holds);
   int shown = 0;
   for (int k = 0; k < own->n; k++) {
     if (!gram_shows(j->g, own->first + k)) continue;
     score_made(own, k, value[k], flights);
-    const double made = flights ? score_rms(value[k], NULL, flights) : taken_to_be(j, own, k);
+    const double made =
+        flights ? made_by_those_that_show(value[k], holds[k], flights, size[k]) : taken_to_be(j, own, k);
     sum += made > 0.0 ? size[k] * size[k] / (made * made) : 1e12;
     shown++;
   }

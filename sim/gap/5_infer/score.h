@@ -72,7 +72,7 @@ typedef struct {
 } verdict_t;
 
 // Judges the last candidate of the choice beside the others. over_nominal: its size over what nominal
-// flights make that could be taken for it.
+// flights that would show it make that could be taken for it.
 verdict_t score_last(const score_t *j, const choice_t *choice);
 
 // Returns by how much a number may lie beyond what is possible: if the vehicle does not have an effect of
@@ -95,9 +95,9 @@ double score_rms(const double *value, const double *holds, int n);
 
 // Both set the rms of the last candidate's numbers on nominal flights, beside the others of the choice.
 // Where none could be flown, feedback is taken to make as much as is never named (SELECT_LEAST); 0 in a
-// first look. score_nominal_rms() counts all flights alike, as many as limits_nominal() is told, each as if it
-// held as much about the number as the log does, and is for gates; score_nominal_error() weights each by what
-// it holds (score_rms), and is for errors of the log's numbers.
+// first look. score_nominal_rms() counts all flights alike, as many as limits_nominal() is told, and is for
+// gates; score_nominal_error() weights each by what it holds (score_rms), and is for errors of the log's
+// numbers.
 void score_nominal_error(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 

@@ -360,8 +360,7 @@ static done_t find_choice(select_t *t, const chosen_t *before, found_t *found, w
     TRY(search_first(t, why));
   TRY(search(t, why));
   memcpy(found->echo, t->echo, (size_t)r->c->n * sizeof *t->echo);
-  found_describe(found, r, t->timing);
-  return DONE;
+  return found_describe(found, r, t->timing, why);
 }
 
 done_t select_effects(selection_t **selection, const select_job_t *job, found_t *found, why_t *why) {

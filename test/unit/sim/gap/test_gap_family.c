@@ -27,7 +27,7 @@ static bool describe(gap_rows_t *g, int n, const int *chosen, found_t *found) {
   why_t why;
   gap_rows_open(g, n, chosen);
   if (!CHECK_OK(found_make(found, &g->candidates, &why))) return false;
-  found_describe(found, &g->round, &UNTIMED);
+  if (!CHECK_OK(found_describe(found, &g->round, &UNTIMED, &why))) return false;
   return CHECK_OK(family_find(&g->round, false, found, &why));
 }
 

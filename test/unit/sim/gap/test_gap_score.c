@@ -44,39 +44,35 @@ TEST(gap_score_estimates_with_the_error_that_it_tells) {
 
 // A disturbance, beside which the effect is surely seen and explains less than one in twenty.
 #define REST 10.0
-#define SURE 200.0 // standard errors of a typical size
 static const struct {
   const char *what, *effect;
   // Over what is typical; nominal: rms, 0: no nominal flights, below 0: none could fly; has: the vehicle
   // file; rest: sd of what is left besides, in the effect's channel.
   double size, nominal, has, rest;
   bool enters;
-  double holds; // information of a nominal flight, over the log's
 } LET_IN[] = {
-    {"a first look", "rotor_drag", 0.5, 0.0, 0.0, 0.0, true, 25.0},
-    {"smaller than is named", "rotor_drag", 0.1, 0.0, 0.0, 0.0, false, 25.0},
-    {"of the wrong sign", "rotor_drag", -0.5, 0.0, 0.0, 0.0, false, 25.0},
-    {"either sign", "mass", -0.5, 0.0, 0.0, 0.0, true, 25.0},
-    {"four times what feedback makes", "rotor_drag", 0.5, 0.125, 0.0, 0.0, true, 25.0},
-    {"twice what feedback makes", "rotor_drag", 0.5, 0.25, 0.0, 0.0, false, 25.0},
-    {"as much, in flights that hold a 12th", "rotor_drag", 0.5, 0.5, 0.0, 0.0, true, 1.0 / 12.0},
-    {"as much, in flights that hold an 8th", "rotor_drag", 0.5, 0.5, 0.0, 0.0, false, 1.0 / 8.0},
-    {"none could fly", "rotor_drag", 0.45, -1.0, 0.0, 0.0, true, 25.0},
-    {"none could fly, and it is smaller", "rotor_drag", 0.28, -1.0, 0.0, 0.0, false, 25.0},
-    {"only beside nominal flights", "inertia", 0.5, 0.0, 0.0, REST, false, 25.0},
-    {"of the sign that no control makes", "inertia", -0.5, 0.0, 0.0, REST, true, 25.0},
-    {"which for torque is above 0", "torque_ratio", 0.5, 0.0, 0.0, REST, true, 25.0},
-    {"and not below", "torque_ratio", -0.5, 0.0, 0.0, REST, false, 25.0},
-    {"but where it explains more than control could", "inertia", 0.5, 0.0, 0.0, 0.0, true, 25.0},
-    {"by a fifth", "inertia", 0.5, 0.0, 0.0, 1.45, true, 25.0},
-    {"and not as much but for a quarter", "inertia", 0.5, 0.0, 0.0, 3.2, false, 25.0},
-    {"more of a torque", "torque_ratio", -0.5, 0.0, 0.0, 0.0, true, 25.0},
-    {"and there", "inertia", 0.5, 0.05, 0.0, 0.0, true, 25.0},
-    {"and none could fly", "inertia", 0.9, -1.0, 0.0, 0.0, false, 25.0},
+    {"a first look", "rotor_drag", 0.5, 0.0, 0.0, 0.0, true},
+    {"smaller than is named", "rotor_drag", 0.1, 0.0, 0.0, 0.0, false},
+    {"of the wrong sign", "rotor_drag", -0.5, 0.0, 0.0, 0.0, false},
+    {"either sign", "mass", -0.5, 0.0, 0.0, 0.0, true},
+    {"four times what feedback makes", "rotor_drag", 0.5, 0.125, 0.0, 0.0, true},
+    {"twice what feedback makes", "rotor_drag", 0.5, 0.25, 0.0, 0.0, false},
+    {"none could fly", "rotor_drag", 0.45, -1.0, 0.0, 0.0, true},
+    {"none could fly, and it is smaller", "rotor_drag", 0.28, -1.0, 0.0, 0.0, false},
+    {"only beside nominal flights", "inertia", 0.5, 0.0, 0.0, REST, false},
+    {"of the sign that no control makes", "inertia", -0.5, 0.0, 0.0, REST, true},
+    {"which for torque is above 0", "torque_ratio", 0.5, 0.0, 0.0, REST, true},
+    {"and not below", "torque_ratio", -0.5, 0.0, 0.0, REST, false},
+    {"but where it explains more than control could", "inertia", 0.5, 0.0, 0.0, 0.0, true},
+    {"by a fifth", "inertia", 0.5, 0.0, 0.0, 1.45, true},
+    {"and not as much but for a quarter", "inertia", 0.5, 0.0, 0.0, 3.2, false},
+    {"more of a torque", "torque_ratio", -0.5, 0.0, 0.0, 0.0, true},
+    {"and there", "inertia", 0.5, 0.05, 0.0, 0.0, true},
+    {"and none could fly", "inertia", 0.9, -1.0, 0.0, 0.0, false},
     // With this noise two errors (0.005 each) less are seen than is hidden.
-    {"what the file has, seen as none", "rotor_drag", -0.99, 0.0, 1.0, 0.0, true, 25.0},
-    {"seen as less than none by an error", "rotor_drag", -0.997, 0.0, 1.0, 0.0, true, 25.0},
-    {"seen as less than none by six", "rotor_drag", -1.02, 0.0, 1.0, 0.0, false, 25.0},
+    {"what the file has, seen as none", "rotor_drag", -0.99, 0.0, 1.0, 0.0, true},
+    {"seen as less than none by an error", "rotor_drag", -0.997, 0.0, 1.0, 0.0, true},
+    {"seen as less than none by six", "rotor_drag", -1.02, 0.0, 1.0, 0.0, false},
 };
 
 TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) {
@@ -84,7 +80,7 @@ TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) 
     gap_rows_t g;
     ROW("%s", LET_IN[i].what);
     gap_rows_make(&g, 7);
-    const int of = along_x(&g, LET_IN[i].effect, SURE);
+    const int of = along_x(&g, LET_IN[i].effect, 200.0);
     g.candidate[of].least[0] -= LET_IN[i].has * g.candidate[of].typical[0];
     g.candidate[of].in_file = LET_IN[i].has > 0.0;
     for (int k = 1; k < g.candidate[of].n; k++) gap_rows_white(&g, gap_rows_column(&g, of, k, CH_FY + k - 1));
@@ -97,13 +93,43 @@ TEST(gap_score_lets_in_what_is_large_of_the_right_sign_and_no_work_of_feedback) 
     const int flights = rms > 0.0 ? NOMINAL_FLIGHTS : 0;
     double found[NOMINAL_FLIGHTS * FX_SIZE_MAX];
     for (int k = 0; k < NOMINAL_FLIGHTS * FX_SIZE_MAX; k++) found[k] = k / g.candidate[of].n % 2 ? -rms : rms;
-    if (rms != 0.0) gap_rows_nominal(&g, flights, LET_IN[i].holds * SURE * SURE, found);
+    if (rms != 0.0) gap_rows_nominal(&g, flights, 1e6, found);
     gap_rows_open(&g, 0, NULL);
     const choice_t with = choice_with(&NONE, of);
     const verdict_t v = score_last(&g.round.score, &with);
     const bool lets_in =
         beyond_control(&g.round, &with, &v, false) && score_allows(&g.round.score, &with, &v);
     CHECK(lets_in == LET_IN[i].enters);
+    gap_rows_free(&g);
+  }
+}
+
+// These nominal flights make 0.5 of it, all others a fiftieth: only those count that would show 0.5.
+TEST(gap_score_asks_flights_that_would_show_a_size_what_feedback_makes_of_it) {
+  static const struct {
+    const char *what;
+    int flights;
+    double holds; // standard errors of a typical size
+    bool enters;
+  } row[] = {{"one that shows it well", 1, 200.0, false},
+             {"one that would show it", 1, 5.0, false},
+             {"one that would not", 1, 3.0, true},
+             {"five that would not", 5, 3.0, true},
+             {"six that would not: all count", 6, 3.0, false}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
+    gap_rows_t g;
+    double made[NOMINAL_FLIGHTS];
+    ROW("%s", row[i].what);
+    gap_rows_make(&g, 7);
+    const int of = along_x(&g, "rotor_drag", 200.0);
+    gap_rows_add(&g, of, 0, 0.5);
+    for (int k = 0; k < NOMINAL_FLIGHTS; k++) made[k] = k < row[i].flights ? 0.5 : 0.01;
+    gap_rows_nominal(&g, NOMINAL_FLIGHTS, 4e4, made);
+    for (int k = 0; k < 4 * row[i].flights; k++) g.nominal.total[k] *= row[i].holds * row[i].holds / 4e4;
+    gap_rows_open(&g, 0, NULL);
+    const choice_t with = choice_with(&NONE, of);
+    const verdict_t v = score_last(&g.round.score, &with);
+    CHECK(score_allows(&g.round.score, &with, &v) == row[i].enters);
     gap_rows_free(&g);
   }
 }
@@ -345,35 +371,4 @@ TEST(gap_score_s_ridge_is_that_of_ten_times_what_is_typical) {
   const double typical = g.candidate[of].typical[0];
   CHECK_NEAR(g.round.score.ridge[0] * typical * typical, 0.01, 1e-9);
   gap_rows_free(&g);
-}
-
-// Over what is typical, of a column that has so many standard errors there. Beside two of these: the Wald
-// test's bound, 3.9 of them for one of three candidates in 23 blocks; the gain, 0.004 of what 7200 rows
-// leave; what another one that gives all but 2e-4 of it could not, the root of 36 over these; and the least
-// that is named.
-TEST(gap_tells_the_least_size_that_would_have_been_seen) {
-  static const struct {
-    const char *what;
-    double sure;
-    bool alike;
-    double least;
-  } row[] = {{"by the gain", 20.0, false, 0.268 + 2.0 / 20.0},
-             {"by the least that is named", 2000.0, false, 0.12 + 2.0 / 2000.0},
-             {"by a rival", 1000.0, true, 0.424 + 2.0 / 1000.0}};
-  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
-    gap_rows_t g;
-    found_t found;
-    why_t why;
-    ROW("%s", row[i].what);
-    gap_rows_make(&g, 13);
-    const int of = along_x(&g, "rotor_drag", row[i].sure), other = along_x(&g, "flapping", row[i].sure);
-    double *const x = gap_rows_column(&g, of, 0, CH_FX), *const y = gap_rows_column(&g, other, 0, CH_FX);
-    for (int k = 0; k < GAP_ROWS && row[i].alike; k++) y[k] = x[k] + 0.0141 * y[k];
-    gap_rows_open(&g, 0, NULL);
-    CHECK_OK(found_make(&found, &g.candidates, &why));
-    found_describe(&found, &g.round, &(const timing_t){.candidate = -1});
-    CHECK_NEAR(found.least[of], row[i].least, 0.12 * row[i].least);
-    found_free(&found);
-    gap_rows_free(&g);
-  }
 }
