@@ -7,6 +7,7 @@
 #include <string.h>
 
 static const double MORE_TAU_S[] = {0.0, 0.03, 0.06, 0.1};
+#define LAGS (sizeof MORE_TAU_S / sizeof *MORE_TAU_S)
 
 #define ORDERS        24   // of four motors
 #define EXPLAINS_MORE 0.25 // least gain of another order, as a share of one axis's turning
@@ -15,17 +16,54 @@ typedef struct {
   double slope, most, correlation; // most: the slope that it has at most, by two standard errors
 } likeness_t;
 
-// Compares measured with predicted increments; slope and correlation are 1 if either is 0.
-static likeness_t likeness(const rows_t *r, const double *measured, const double *residual) {
-  const increments_t s = increments_of(r, measured, residual);
+// Takes out of both increments what goes with `thrust`. A centre of mass, or a weak rotor, that the vehicle
+// file does not know turns a calm hover's predictions by its thrust, more than attitude control does: that is
+// to be named, and no command is missed.
+static increments_t but_for_thrust(const rows_t *r, const double *measured, const double *residual,
+                                   const double *thrust) {
+  increments_t s = increments_of(r, measured, residual);
+  double tt = 0.0, yt = 0.0, pt = 0.0;
+  for (int i = 1; i < r->n; i++) {
+    if (!r->follows[i]) continue;
+    const double t = thrust[i] - thrust[i - 1], y = measured[i] - measured[i - 1];
+    tt += t * t;
+    yt += y * t;
+    pt += (y - (residual[i] - residual[i - 1])) * t;
+  }
+  if (!(tt > 0.0)) return s;
+  s.yy -= yt * yt / tt;
+  s.pp -= pt * pt / tt;
+  s.yp -= yt * pt / tt;
+  return s;
+}
+
+// Compares measured with predicted increments; slope and correlation are 1 if either is 0. thrust: null, or
+// what is taken out.
+static likeness_t likeness(const rows_t *r, const double *measured, const double *residual,
+                           const double *thrust) {
+  const increments_t s =
+      thrust ? but_for_thrust(r, measured, residual, thrust) : increments_of(r, measured, residual);
   if (!(s.pp > 0.0 && s.yy > 0.0)) return (likeness_t){1.0, 1.0, 1.0};
   const double slope = s.yp / s.pp, error = sqrt(fmax(s.yy / s.pp - slope * slope, 0.0) / s.n);
   return (likeness_t){slope, slope + 2.0 * error, s.yp / sqrt(s.yy * s.pp)};
 }
 
+// Sets rows that go with the thrust: by how much less it turns about x with the rotors a little to the left.
+static done_t thrust_rows(set_t *s, const model_t *m, double *const r[CHANNELS], double *thrust, why_t *why) {
+  model_t left = *m;
+  const int n = s->smooth.n;
+  for (int k = 0; k < ROTORS; k++) left.frame.rotor_y_m[k] += 1e-3;
+  TRY(residual_of(s, &left, r, why));
+  memcpy(thrust, r[CH_WX], (size_t)n * sizeof *thrust);
+  TRY(residual_of(s, m, r, why));
+  for (int i = 0; i < n; i++) thrust[i] -= r[CH_WX][i];
+  return DONE;
+}
+
 // Finds, by channel, how well turning follows the commands at the best of the first `lags` of MORE_TAU_S.
-static done_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, likeness_t best[CHANNELS],
-                      why_t *why) {
+// but_thrust: but for what goes with the thrust.
+static done_t best_of(set_t *s, const model_t *m, unsigned lags, bool but_thrust, double *room,
+                      likeness_t best[CHANNELS], why_t *why) {
   double *r[CHANNELS], *measured[CHANNELS] = {NULL};
   const size_t n = set_most_rows(s);
   for (size_t ch = 0; ch < CHANNELS; ch++) {
@@ -33,13 +71,15 @@ static done_t best_of(set_t *s, const model_t *m, unsigned lags, double *room, l
     r[ch] = room + ch * n;
   }
   for (size_t ch = CH_WX; ch <= CH_WZ; ch++) measured[ch] = room + (CHANNELS + ch - CH_WX) * n;
+  double *const thrust = but_thrust ? room + (CHANNELS + 3) * n : NULL;
   TRY(residual_measured(s, measured, why));
   for (unsigned i = 0; i < lags; i++) {
     model_t slower = *m;
     slower.motor_tau_s += MORE_TAU_S[i];
+    if (thrust) TRY(thrust_rows(s, &slower, r, thrust, why));
     TRY(residual_of(s, &slower, r, why));
     for (int ch = CH_WX; ch <= CH_WZ; ch++) {
-      const likeness_t now = likeness(&s->smooth, measured[ch], r[ch]);
+      const likeness_t now = likeness(&s->smooth, measured[ch], r[ch], thrust);
       if (now.correlation > best[ch].correlation) best[ch] = now;
     }
   }
@@ -100,7 +140,7 @@ static done_t find_order(set_t *s, const model_t *m, double *room, why_t *why) {
     order_of(i, order);
     for (int k = 0; k < ROTORS; k++) back[order[k]] = k;
     reorder(s, order);
-    const done_t status = best_of(s, m, 1, room, axis, why);
+    const done_t status = best_of(s, m, 1, false, room, axis, why);
     reorder(s, back);
     TRY(status);
     const double now = explained(axis);
@@ -130,7 +170,7 @@ static done_t try_other_spins(set_t *s, const model_t *m, double *room, const li
         best[CH_WX].slope >= EXCLUDED_SLOPE && best[CH_WY].slope >= EXCLUDED_SLOPE))
     return DONE;
   for (int k = 0; k < ROTORS; k++) other.frame.rotor_spin[k] *= -1.0;
-  TRY(best_of(s, &other, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, then, why));
+  TRY(best_of(s, &other, LAGS, false, room, then, why));
   s->spins_other = then[CH_WZ].correlation > 0.0 && then[CH_WZ].slope >= EXCLUDED_SLOPE;
   return DONE;
 }
@@ -138,7 +178,7 @@ static done_t try_other_spins(set_t *s, const model_t *m, double *room, const li
 static done_t exclude(set_t *s, const model_t *m, double *room, why_t *why) {
   likeness_t best[CHANNELS];
   bool any = false;
-  TRY(best_of(s, m, sizeof MORE_TAU_S / sizeof *MORE_TAU_S, room, best, why));
+  TRY(best_of(s, m, LAGS, false, room, best, why));
   TRY(try_other_spins(s, m, room, best, why));
   for (int ch = CH_WX; ch <= CH_WZ; ch++)
     if (best[ch].correlation > -2.0 && best[ch].correlation < EXCLUDED_AGAINST)
@@ -149,8 +189,13 @@ static done_t exclude(set_t *s, const model_t *m, double *room, why_t *why) {
           s->grid[0].flight->name, gap_channel[ch], best[ch].correlation,
           ch == CH_WZ && s->spins_other ? " (it follows with the other sign of `spin` in the vehicle file)"
                                         : "");
+  for (int ch = CH_WX; ch <= CH_WZ; ch++) any = any || best[ch].most < EXCLUDED_SLOPE;
+  if (!any) return DONE;
+  likeness_t beside[CHANNELS];
+  TRY(best_of(s, m, LAGS, true, room, beside, why));
+  any = false;
   for (int ch = CH_WX; ch <= CH_WZ; ch++) {
-    s->excluded[ch] = best[ch].most < EXCLUDED_SLOPE;
+    s->excluded[ch] = best[ch].most < EXCLUDED_SLOPE && beside[ch].most < EXCLUDED_SLOPE;
     any = any || s->excluded[ch];
   }
   return any ? find_order(s, m, room, why) : DONE;
@@ -161,7 +206,7 @@ done_t excluded_find(set_t *s, const model_t *m, why_t *why) {
   s->spins_other = false;
   if (!residual_has(s, CH_WX)) return DONE;
   const size_t n = set_most_rows(s);
-  double *const room = calloc((CHANNELS + 3) * n, sizeof(double));
+  double *const room = calloc((CHANNELS + 4) * n, sizeof(double));
   const done_t status = room ? exclude(s, m, room, why) : error_failed(why, "out of memory");
   free(room);
   return status;

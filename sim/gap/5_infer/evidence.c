@@ -193,24 +193,24 @@ done_t evidence_odds(const round_t *r, double odds[NAMED_MAX], why_t *why) {
   return DONE;
 }
 
-// Sets the information on each column that the choice, of any size, leaves. The choice's columns are at most
-// COLUMN_MAX. False: no solution.
-static bool beside_choice(const information_t *f, const round_t *r, double *left) {
+// Sets the information on columns from .. to - 1 that a choice, of any size, leaves; none where there is no
+// solution.
+static void left_beside(const information_t *f, const candidates_t *c, const choice_t *choice, int from,
+                        int to, double *left) {
   int column[COLUMN_MAX];
   double Q[COLUMN_MAX * COLUMN_MAX], z[COLUMN_MAX];
-  const int n = choice_columns(r->c, &r->choice, column);
+  const int n = choice_columns(c, choice, column);
   for (int i = 0; i < n; i++)
     for (int k = 0; k < n; k++)
       Q[i * n + k] = f->F[column[i] * f->n + column[k]] +
                      (i == k ? 1.0 / (EVIDENCE_TYPICAL_MOST * EVIDENCE_TYPICAL_MOST) : 0.0);
-  if (!cholesky(Q, n)) return false;
-  for (int k = 0; k < f->n; k++) {
+  const bool known = cholesky(Q, n);
+  for (int k = from; k < to; k++) {
     for (int i = 0; i < n; i++) z[i] = f->F[column[i] * f->n + k];
-    cholesky_forward(Q, n, z);
-    left[k] = f->F[k * (f->n + 1)];
+    if (known) cholesky_forward(Q, n, z);
+    left[k] = known ? f->F[k * (f->n + 1)] : 0.0;
     for (int i = 0; i < n; i++) left[k] -= z[i] * z[i];
   }
-  return true;
 }
 
 // Returns the log odds of an effect with one number, of which the rows hold this information.
@@ -238,8 +238,13 @@ static double even_odds(double information) {
 done_t evidence_least(const round_t *r, double *least, why_t *why) {
   information_t f;
   TRY(information_make(&f, r, why));
-  const bool known = beside_choice(&f, r, least);
-  for (int k = 0; k < f.n; k++) least[k] = known && least[k] > 0.0 ? even_odds(least[k]) : HUGE_VAL;
+  left_beside(&f, r->c, &r->choice, 0, f.n, least);
+  for (int i = 0; i < r->choice.n; i++) {
+    const candidate_t *const own = &r->c->candidate[r->choice.of[i]];
+    const choice_t others = choice_without(&r->choice, r->choice.of[i]);
+    left_beside(&f, r->c, &others, own->first, own->first + own->n, least);
+  }
+  for (int k = 0; k < f.n; k++) least[k] = least[k] > 0.0 ? even_odds(least[k]) : HUGE_VAL;
   information_free(&f);
   return DONE;
 }

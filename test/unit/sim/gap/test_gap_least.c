@@ -57,8 +57,10 @@ TEST(gap_tells_from_which_size_on_the_rows_speak_for_an_effect) {
   static const struct {
     const char *what;
     double times;
-    bool there;
-  } row[] = {{"four fifths of it", 0.8, false}, {"a quarter more", 1.25, true}};
+    bool chosen, there; // chosen: it is named already
+  } row[] = {{"four fifths of it", 0.8, false, false},
+             {"a quarter more", 1.25, false, true},
+             {"a quarter more of what is named", 1.25, true, true}};
   for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_rows_t g;
     double least[GAP_COLUMNS], odds[NAMED_MAX];
@@ -67,7 +69,7 @@ TEST(gap_tells_from_which_size_on_the_rows_speak_for_an_effect) {
     gap_rows_make(&g, 26);
     const int of = along(&g, "mass", CH_FX, 20.0), beside = along(&g, "flapping", CH_FY, 20.0);
     gap_rows_nominal(&g, 0, 0.0, NULL);
-    gap_rows_open(&g, 1, &beside);
+    gap_rows_open(&g, 1, row[i].chosen ? &of : &beside);
     if (!CHECK_OK(evidence_least(&g.round, least, &why))) return;
     const int column = g.candidate[of].first;
     CHECK_NEAR(least[column], 0.2, 0.05);
