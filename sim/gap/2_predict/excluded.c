@@ -16,6 +16,8 @@ typedef struct {
   double slope, most, correlation; // most: the slope that it has at most, by two standard errors
 } likeness_t;
 
+#define ROUNDING 1e-9 // share of a sum of squares below which a difference of sums is rounding
+
 // Takes out of both increments what goes with `thrust`. A centre of mass, or a weak rotor, that the vehicle
 // file does not know turns a calm hover's predictions by its thrust, more than attitude control does: that is
 // to be named, and no command is missed.
@@ -30,10 +32,11 @@ static increments_t but_for_thrust(const rows_t *r, const double *measured, cons
     yt += y * t;
     pt += (y - (residual[i] - residual[i - 1])) * t;
   }
-  if (!(tt > 0.0)) return s;
+  if (!(tt > 0.0) || s.pp - pt * pt / tt < ROUNDING * s.pp) return s;
   s.yy -= yt * yt / tt;
   s.pp -= pt * pt / tt;
   s.yp -= yt * pt / tt;
+  s.n--;
   return s;
 }
 
@@ -48,11 +51,14 @@ static likeness_t likeness(const rows_t *r, const double *measured, const double
   return (likeness_t){slope, slope + 2.0 * error, s.yp / sqrt(s.yy * s.pp)};
 }
 
-// Sets rows that go with the thrust: by how much less it turns about x with the rotors a little to the left.
+#define SHIFT_M 1e-3 // any length does: what goes with the thrust is taken out at its own slope
+
+// Sets r, and rows that go with the thrust: what turning about x leaves less with the rotors shifted to the
+// left.
 static done_t thrust_rows(set_t *s, const model_t *m, double *const r[CHANNELS], double *thrust, why_t *why) {
   model_t left = *m;
   const int n = s->smooth.n;
-  for (int k = 0; k < ROTORS; k++) left.frame.rotor_y_m[k] += 1e-3;
+  for (int k = 0; k < ROTORS; k++) left.frame.rotor_y_m[k] += SHIFT_M;
   TRY(residual_of(s, &left, r, why));
   memcpy(thrust, r[CH_WX], (size_t)n * sizeof *thrust);
   TRY(residual_of(s, m, r, why));
@@ -76,8 +82,7 @@ static done_t best_of(set_t *s, const model_t *m, unsigned lags, bool but_thrust
   for (unsigned i = 0; i < lags; i++) {
     model_t slower = *m;
     slower.motor_tau_s += MORE_TAU_S[i];
-    if (thrust) TRY(thrust_rows(s, &slower, r, thrust, why));
-    TRY(residual_of(s, &slower, r, why));
+    TRY(thrust ? thrust_rows(s, &slower, r, thrust, why) : residual_of(s, &slower, r, why));
     for (int ch = CH_WX; ch <= CH_WZ; ch++) {
       const likeness_t now = likeness(&s->smooth, measured[ch], r[ch], thrust);
       if (now.correlation > best[ch].correlation) best[ch] = now;

@@ -42,7 +42,10 @@ void evidence_free(evidence_t *e);
 MUST_CHECK done_t evidence_odds(const round_t *r, double odds[NAMED_MAX], why_t *why);
 
 // Sets least[k], by column: the size, over what is typical, from which on the rows speak for this number
-// alone, beside the others of the round's choice; HUGE_VAL: no size would. FAILED: no memory.
+// alone, beside the others of the round's choice; HUGE_VAL: no size would. It asks of each number what
+// evidence_odds() asks of an effect of one form and either sign: with a dozen forms that look unlike each
+// other it is a fifth too small, of a size that is positive a twentieth too large. FAILED: no memory, or what
+// feedback makes has no covariance.
 MUST_CHECK done_t evidence_least(const round_t *r, double *least, why_t *why);
 
 // Returns the probability that at least one of these candidates is there, in any form.

@@ -75,7 +75,7 @@ void found_withdraw(found_t *f, int i);
 void found_join_rivals(found_t *f);
 
 // Fills *f from a finished selection: names (family.h adds their rivals), and for each candidate the smallest
-// size that would have been seen. f->echo must be set already. FAILED: no memory.
+// size that would have been seen. f->echo must be set already. FAILED: as evidence_least().
 MUST_CHECK done_t found_describe(found_t *f, const round_t *r, const timing_t *timing, why_t *why);
 
 // Returns the smallest size of an effect that would have been seen, over the typical one: of its shapes the

@@ -6,6 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+// As CANDIDATES_MISFIT, where rows miss commands, for effects that these look like (fx->control_makes): an
+// inertia of a quarter of the typical one has been named where nothing was hidden, and a torque beside a
+// thrust scale (users' set 24533).
+#define MISFIT_BESIDE 0.25
+
 // Lateness of instruments, over the least lag or delay that is named: an error of either. Without it a wrong
 // drag beside a lag is as sure as a right one.
 #define LATE 0.15
@@ -166,6 +171,7 @@ static double other_pilots(const parts_t *p, int column, double square) {
 // ground effect would hide what one of them does. False: no memory.
 static bool widen(parts_t *p, const double *nominal, const double *blocks) {
   const candidates_t *const c = p->r->c;
+  const bool slow = candidates_slow(p->r->s);
   double *const wanted = calloc((size_t)p->n + 1, sizeof(double));
   if (!wanted) return false;
   for (int k = 0; k < p->n; k++) wanted[k] = fmax(fmax(nominal[k], blocks[k]) - p->A[k * (p->n + 1)], 0.0);
@@ -174,10 +180,11 @@ static bool widen(parts_t *p, const double *nominal, const double *blocks) {
   if (!spread_out) return false;
   for (int i = 0; i < c->n; i++) {
     const fx_t *const fx = c->candidate[i].use.fx;
+    const double misfit = fx->control_makes && slow ? MISFIT_BESIDE : CANDIDATES_MISFIT;
     for (int k = 0; k < c->candidate[i].n; k++) {
       const int column = c->candidate[i].first + k;
       const double late = LATE * candidates_least(fx, p->r->s) / p->typical[column];
-      p->wide[column] += CANDIDATES_MISFIT * CANDIDATES_MISFIT / candidates_of(c, i) + late * late;
+      p->wide[column] += misfit * misfit / candidates_of(c, i) + late * late;
       if (fx->control_makes) p->wide[column] += other_pilots(p, column, nominal[column]);
     }
   }

@@ -44,6 +44,15 @@ done_t pairs_find(pairs_t *p, const round_t *r, const bool *out, why_t *why) {
   return DONE;
 }
 
+bool pairs_sure(const round_t *r, const hiding_t *pair) {
+  const double pairs = 0.5 * r->c->n * (r->c->n - 1);
+  for (int i = 0; i < 2; i++) {
+    const choice_t other = choice_with(&r->choice, pair->of[!i]), both = choice_with(&other, pair->of[i]);
+    if (!(score_last(&r->score, &both).p * pairs < SELECT_ALPHA)) return false;
+  }
+  return true;
+}
+
 void pairs_free(pairs_t *p) {
   free(p->pair);
   *p = (pairs_t){.n = 0};

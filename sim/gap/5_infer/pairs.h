@@ -25,4 +25,7 @@ typedef struct {
 MUST_CHECK done_t pairs_find(pairs_t *p, const round_t *r, const bool *out, why_t *why);
 void pairs_free(pairs_t *p);
 
+// True if each of the two, beside the other, has p < SELECT_ALPHA over the number of pairs.
+bool pairs_sure(const round_t *r, const hiding_t *pair);
+
 #endif

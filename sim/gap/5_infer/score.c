@@ -229,21 +229,19 @@ void score_made(const candidate_t *c, int k, double *value, int flights) {
   for (int i = 0; i < flights && c->least[k] >= 0.0; i++) value[i] -= fmin(mean, 0.0);
 }
 
-// Returns the rms of what nominal flights make of a number, of those that would show this size: one that
-// hardly comes near a surface errs by more than the log can. Where fewer than half would, all count.
-static double made_by_those_that_show(const double *value, const double *holds, int flights, double size) {
-  double shows[NOMINAL_FLIGHTS];
-  int n = 0;
-  for (int i = 0; i < flights; i++) {
-    const bool would = size * size * holds[i] > SCORE_ERRORS * SCORE_ERRORS;
-    shows[i] = would ? 1.0 : 0.0;
-    n += would;
-  }
-  return score_rms(value, 2 * n < flights ? NULL : shows, flights);
+// Leaves of what nominal flights make of size k, and of its number of flights, those that would show a size
+// like this: one that hardly comes near a surface errs by more than the log can. Where fewer than half would,
+// all stay.
+static int that_would_show(double size, const double *holds, double *value, int flights) {
+  int n = 0, would = 0;
+  for (int i = 0; i < flights; i++) would += size * size * holds[i] > SCORE_ERRORS * SCORE_ERRORS;
+  for (int i = 0; i < flights; i++)
+    if (2 * would < flights || size * size * holds[i] > SCORE_ERRORS * SCORE_ERRORS) value[n++] = value[i];
+  return n;
 }
 
-// Returns the last candidate's sizes over what feedback makes that could be taken for them, rms of those
-// that are shown.
+// Returns the last candidate's sizes over the bound of what feedback makes that could be taken for them, rms
+// of those that are shown.
 static double over_nominal(const score_t *j, const choice_t *choice, const double size[FX_SIZE_MAX]) {
   const candidate_t *const own = &j->c->candidate[choice->of[choice->n - 1]];
   double value[FX_SIZE_MAX][NOMINAL_FLIGHTS], holds[FX_SIZE_MAX][NOMINAL_FLIGHTS], sum = 0.0;
@@ -251,9 +249,9 @@ static double over_nominal(const score_t *j, const choice_t *choice, const doubl
   int shown = 0;
   for (int k = 0; k < own->n; k++) {
     if (!gram_shows(j->g, own->first + k)) continue;
-    score_made(own, k, value[k], flights);
-    const double made =
-        flights ? made_by_those_that_show(value[k], holds[k], flights, size[k]) : taken_to_be(j, own, k);
+    const int n = that_would_show(size[k], holds[k], value[k], flights);
+    score_made(own, k, value[k], n);
+    const double made = limits_nominal(n) * (n ? score_rms(value[k], NULL, n) : taken_to_be(j, own, k));
     sum += made > 0.0 ? size[k] * size[k] / (made * made) : 1e12;
     shown++;
   }
@@ -306,8 +304,7 @@ bool score_allows(const score_t *j, const choice_t *choice, const verdict_t *v) 
     if (!can_be(c, k, v->value[k], score_margin(c, v->stderr_[k]))) return false;
     largest = fmax(largest, fabs(v->value[k]) / c->typical[k]);
   }
-  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA &&
-         v->over_nominal > limits_nominal(j->nominal ? j->nominal->n : 0);
+  return largest > SELECT_LEAST && v->p * j->c->n < SELECT_ALPHA && v->over_nominal > 1.0;
 }
 
 // --- could one effect stand for another, and how large must it be to be seen? -----------------------------

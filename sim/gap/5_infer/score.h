@@ -71,8 +71,8 @@ typedef struct {
   double value[FX_SIZE_MAX], stderr_[FX_SIZE_MAX], p, over_nominal;
 } verdict_t;
 
-// Judges the last candidate of the choice beside the others. over_nominal: its size over what nominal
-// flights that would show it make that could be taken for it.
+// Judges the last candidate of the choice beside the others. over_nominal: its size over the bound of
+// what nominal flights that would show it make that could be taken for it; above 1 it passes gate (c).
 verdict_t score_last(const score_t *j, const choice_t *choice);
 
 // Returns by how much a number may lie beyond what is possible: if the vehicle does not have an effect of

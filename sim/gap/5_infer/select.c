@@ -63,7 +63,8 @@ static bool add_best(select_t *t) {
 static bool pair_passes(const select_t *t, const hiding_t *pair) {
   const choice_t first = choice_with(&t->round.choice, pair->of[0]);
   const choice_t second = choice_with(&t->round.choice, pair->of[1]);
-  return try_with(t, &first, pair->of[1]) < HUGE_VAL && try_with(t, &second, pair->of[0]) < HUGE_VAL;
+  return pairs_sure(&t->round, pair) && try_with(t, &first, pair->of[1]) < HUGE_VAL &&
+         try_with(t, &second, pair->of[0]) < HUGE_VAL;
 }
 
 // Adds two that hide each other, if each passes beside the other; as first names only: what a name of the
@@ -72,15 +73,16 @@ static done_t add_pair(select_t *t, bool *added, why_t *why) {
   choice_t *const choice = &t->round.choice;
   pairs_t pairs;
   *added = false;
-  if (choice->n > 0) return DONE;
-  TRY(pairs_find(&pairs, &t->round, t->been, why));
+  for (int i = 0; i < choice->n; i++)
+    if (round_fx(&t->round, choice->of[i])->group != FX_TIMING) return DONE;
+  const done_t status = pairs_find(&pairs, &t->round, t->been, why);
   for (int i = 0; i < pairs.n && !*added; i++) {
     const int *const of = pairs.pair[i].of;
     *added = pair_passes(t, &pairs.pair[i]);
     for (int k = 0; k < 2 && *added; k++) *choice = choice_with(choice, of[k]), t->been[of[k]] = true;
   }
   pairs_free(&pairs);
-  return DONE;
+  return status;
 }
 
 // Replaces one of the choice by another candidate, where that leaves less by more than 2. Returns the new

@@ -1,11 +1,11 @@
 // select.h - which effects are missing: forward selection of groups by cross-validation over half-flights.
 //
 // To enter, a candidate needs
-//   (a) p < 0.01 over the number of candidates, of a cluster-robust Wald F over blocks of 2 s,
-//   (b) sizes that the effect can have, the largest of them above 0.12 of what is typical,
-//   (c) sizes above limits_nominal() times their rms on nominal flights (nominal_sums.h),
-//   (d) a cross-validated gain of 0.4 % of the sum of squares that exceeds its scatter between half-flights,
-//   (e) no harm to any group of channels (score_harms).
+//   (a) p < 0.01 over the number of candidates (of pairs: pairs.h), of a cluster-robust Wald F over blocks of
+//   2 s, (b) sizes that the effect can have, the largest of them above 0.12 of what is typical, (c) sizes
+//   above limits_nominal() times their rms on the nominal flights that would show them (score_last), (d) a
+//   cross-validated gain of 0.4 % of the sum of squares that exceeds its scatter between half-flights, (e) no
+//   harm to any group of channels (score_harms).
 // Until nothing changes, the best candidate enters (as first names, too, two that hide each other: pairs.h),
 // the numbers of the choice are estimated anew about their present values, what no longer passes beside the
 // others goes out, and one candidate is swapped for another where both models, replayed, confirm it. Twice

@@ -119,21 +119,26 @@ TEST(gap_information_knows_one_misfit_of_an_effect_however_many_its_forms) {
   }
 }
 
-// Control makes of a disturbance what looks like an inertia: a quarter of what is typical is no information.
-// Nor is 0.15 of the 5 ms from which on a delay is named, beside two hundredths of what is typical.
-TEST(gap_information_holds_little_of_lateness) {
-  static const char *const name[] = {"inertia", "delay"};
-  for (int i = 0; i < 2; i++) {
+// What missed commands did looks like an inertia: a quarter of what is typical is no information there. Nor
+// is 0.15 of the 5 ms from which on a delay is named, beside two hundredths of what is typical.
+TEST(gap_information_holds_little_of_an_inertia_in_slow_rows_and_of_lateness) {
+  static const struct {
+    const char *name;
+    double rate_Hz, late_s, misfit;
+  } row[] = {
+      {"inertia", 500.0, 0.0, 0.02}, {"inertia", 100.0, 0.0, 0.25}, {"delay", 500.0, 0.15 * 0.005, 0.02}};
+  for (unsigned i = 0; i < sizeof row / sizeof *row; i++) {
     gap_rows_t g;
     why_t why;
     information_t f;
-    ROW("%s", name[i]);
+    ROW("%s at %.0f Hz", row[i].name, row[i].rate_Hz);
     gap_rows_make(&g, 26);
-    const int of = along(&g, name[i], CH_WX, 2000.0);
+    g.flight.rate_Hz = row[i].rate_Hz;
+    const int of = along(&g, row[i].name, CH_WX, 2000.0);
     gap_rows_nominal(&g, 0, 0.0, NULL);
     gap_rows_open(&g, 0, NULL);
     if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
-    const double sd = i ? hypot(0.02, 0.15 * 0.005 / g.candidate[of].typical[0]) : 0.02;
+    const double sd = hypot(row[i].misfit, row[i].late_s / g.candidate[of].typical[0]);
     CHECK_NEAR(1.0 / sqrt(f.F[0]), sd, 0.05 * sd);
     information_free(&f);
     gap_rows_free(&g);
