@@ -281,7 +281,7 @@ test-desk: $(B)/bin/desk  ## the desk's page in a Chromium without a window (W=w
 
 exam: $(O)/exam  ## the hidden-effect exam: 200 data sets, and 320 of users, diagnosed and marked (SEED=FIRST); 5 min
 	@$(O)/exam $(or $(SEED),226001) 200
-	@$(O)/exam users $(or $(SEED),231001) 320
+	@$(O)/exam users $(or $(SEED),234001) 320
 
 outside: $(O)/gap  ## vehicles of rotorpy with something hidden, diagnosed and marked (SEED=S SETS=40); skips without rotorpy; half an hour
 	@tools/outside.sh $(or $(SEED),1) $(or $(SETS),40) "$(CF_PACKAGES)"

@@ -145,7 +145,7 @@ RECIPES = {
     "pushes": Recipe(passing.pushes),
     "robust": Recipe(robust.robust),
     "exam": Recipe(says("exam", 226001, 200)),
-    "users": Recipe(says("exam", "users", 231001, 320)),
+    "users": Recipe(says("exam", "users", 234001, 320)),
     "outside": Recipe(outside),
     "slot": Recipe(says("slot", run.DATA), data=True),
     "c3": Recipe(height),

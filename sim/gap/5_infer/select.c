@@ -67,14 +67,15 @@ static bool pair_passes(const select_t *t, const hiding_t *pair) {
          try_with(t, &second, pair->of[0]) < HUGE_VAL;
 }
 
-// Adds two that hide each other, if each passes beside the other; as first names only: what a name of the
-// wrong shape leaves looks like two (users' set 63145: mass and a force upwards beside a sag).
+// Adds two that hide each other, as first names of a first look only: later, what a wrong shape leaves
+// (users' set 63145) or a name that was taken out for a reason (231008) looks like two.
 static done_t add_pair(select_t *t, bool *added, why_t *why) {
   choice_t *const choice = &t->round.choice;
   pairs_t pairs;
   *added = false;
-  for (int i = 0; i < choice->n; i++)
-    if (round_fx(&t->round, choice->of[i])->group != FX_TIMING) return DONE;
+  bool first = !t->round.nominal;
+  for (int i = 0; i < choice->n; i++) first = first && round_fx(&t->round, choice->of[i])->group == FX_TIMING;
+  if (!first) return DONE;
   const done_t status = pairs_find(&pairs, &t->round, t->been, why);
   for (int i = 0; i < pairs.n && !*added; i++) {
     const int *const of = pairs.pair[i].of;
