@@ -266,8 +266,7 @@ static done_t step_until_still(select_t *t, why_t *why) {
   }
 }
 
-// Takes out the name with the least evidence, if it is more likely absent than present. The evidence
-// includes what feedback makes of all names together.
+// Takes out the name with the least evidence beside all others, if it is more likely absent than present.
 static done_t drop_doubtful(select_t *t, bool *dropped, why_t *why) {
   round_t *const r = &t->round;
   double odds[NAMED_MAX], least = 0.0;
