@@ -114,6 +114,16 @@ void gap_rows_white(gap_rows_t *g, double *v) {
   for (int i = 0; i < GAP_ROWS; i++) v[i] = random_normal(g->random);
 }
 
+int gap_rows_along(gap_rows_t *g, const char *effect, int channel, double sure) {
+  const int of = gap_rows_candidate(g, effect);
+  for (int k = 0; k < g->candidate[of].n; k++) {
+    double *const x = gap_rows_column(g, of, k, channel + k);
+    gap_rows_white(g, x);
+    for (int i = 0; i < GAP_ROWS; i++) x[i] *= sure / sqrt(GAP_ROWS);
+  }
+  return of;
+}
+
 void gap_rows_add(gap_rows_t *g, int candidate, int k, double times) {
   for (int ch = 0; ch < CHANNELS; ch++) {
     const double *const x = g->column[ch][g->candidate[candidate].first + k];

@@ -30,6 +30,9 @@ void gap_rows_free(gap_rows_t *g);
 int gap_rows_candidate(gap_rows_t *g, const char *effect);
 // Returns the regressor of a candidate's size k in a channel, for one typical size; the caller fills it.
 double *gap_rows_column(gap_rows_t *g, int candidate, int k, int channel);
+// Adds a candidate whose size k is white noise in channel `channel` + k, so strong that a typical size has
+// `sure` standard errors. Returns its number.
+int gap_rows_along(gap_rows_t *g, const char *effect, int channel, double sure);
 // Fills v with white noise of sd 1.
 void gap_rows_white(gap_rows_t *g, double *v);
 // Adds `times` times a candidate's typical size k to the measured residual.

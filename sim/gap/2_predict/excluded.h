@@ -3,7 +3,9 @@
 // Turning is predicted from differences between commands. Where commands are logged more slowly than they
 // were given, these differences are mostly noise, and every effect that makes predictions smaller (inertia,
 // lag) seems to be missing. The slope shows such a channel: from row to row, the measured turning is far less
-// than the predicted one, whatever the lag. If it is negative, a sign or the order of the motors is wrong.
+// than the predicted one, whatever the lag. What goes with the thrust is no part of that: it is a centre of
+// mass or a weak rotor that the vehicle file does not know. If the slope is negative, a sign or the order of
+// the motors is wrong.
 //
 // If two motors are exchanged, two of the three moments cancel: turning follows the commands about one axis
 // only. If all spins have the wrong sign, turning follows about x and y, and about z once they are reversed.

@@ -223,17 +223,13 @@ static double odds_of(double information, double size) {
   return log(RARE * sum);
 }
 
-#define HALVINGS 20 // a millionth of the size that doubling found
-
-// Returns the size with even odds.
+// Returns the size with even odds, to the last bit: halving ends where no number lies between.
 static double even_odds(double information) {
   const double error = 1.0 / sqrt(information);
   double less = 0.0, more = error;
   while (odds_of(information, more) < 0.0 && more < HUGE_VAL) more *= 2.0;
-  for (int i = 0; i < HALVINGS; i++) {
-    const double half = 0.5 * (less + more);
+  for (double half = 0.5 * more; half > less && half < more; half = 0.5 * (less + more))
     *(odds_of(information, half) < 0.0 ? &less : &more) = half;
-  }
   return more;
 }
 

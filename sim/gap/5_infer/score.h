@@ -96,8 +96,8 @@ double score_rms(const double *value, const double *holds, int n);
 // Both set the rms of the last candidate's numbers on nominal flights, beside the others of the choice.
 // Where none could be flown, feedback is taken to make as much as is never named (SELECT_LEAST); 0 in a
 // first look. score_nominal_rms() counts all flights alike, as many as limits_nominal() is told, and is for
-// gates; score_nominal_error() weights each by what it holds (score_rms), and is for errors of the log's
-// numbers.
+// what would have been seen; score_nominal_error() weights each by what it holds (score_rms), and is for
+// errors of the log's numbers.
 void score_nominal_error(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 void score_nominal_rms(const score_t *j, const choice_t *choice, double rms[FX_SIZE_MAX]);
 

@@ -1,20 +1,21 @@
 // select.h - which effects are missing: forward selection of groups by cross-validation over half-flights.
 //
 // To enter, a candidate needs
-//   (a) p < 0.01 over the number of candidates (of pairs: pairs.h), of a cluster-robust Wald F over blocks of
-//   2 s, (b) sizes that the effect can have, the largest of them above 0.12 of what is typical, (c) sizes
-//   above limits_nominal() times their rms on the nominal flights that would show them (score_last), (d) a
-//   cross-validated gain of 0.4 % of the sum of squares that exceeds its scatter between half-flights, (e) no
-//   harm to any group of channels (score_harms).
-// Until nothing changes, the best candidate enters (as first names of a first look, too, two that hide each
-// other: pairs.h), the numbers of the choice are estimated anew about their present values, what no longer
+//   (a) p < 0.01 over the number of candidates, of a cluster-robust Wald F over blocks of 2 s,
+//   (b) sizes that the effect can have, the largest of them above 0.12 of what is typical,
+//   (c) sizes above limits_nominal() times their rms on the nominal flights that would show them,
+//   (d) a cross-validated gain of 0.4 % of the sum of squares that exceeds its scatter between half-flights,
+//   (e) no harm to any group of channels (score_harms).
+// Until nothing changes, the best candidate enters (as first names of a first look also two that hide each
+// other, pairs.h), the numbers of the choice are estimated anew about their present values, what no longer
 // passes beside the others goes out, and one candidate is swapped for another where both models, replayed,
-// confirm it. Twice the logarithm of the number of an effect's forms counts with what is left, because it is
-// there in any of its forms: of candidates that leave the same, the one with fewest forms enters. Then the
-// name that the rows speak against most, beside the others and what feedback makes of all of them together
-// (evidence.h), goes out for good, and the search goes on. A lag or delay below 5 ms, or below one period of
-// the log, is what feedback alone or streams that are not aligned look like: it is taken into the model, and
-// not named. A name that others could stand for is told with them (family.h).
+// confirm it. Twice the logarithm of the number of an effect's forms counts with what is left (round_left).
+// Then the name that the rows speak against most, beside the others and what feedback makes of all of them
+// together (evidence.h), goes out for good, and the search goes on.
+//
+// A lag or delay below 5 ms, or below one period of the log, is what feedback alone or streams that are not
+// aligned look like: it is taken into the model, and not named. A name that others could stand for is told
+// with them (family.h).
 //
 // A first look begins with nothing, in the colours that would be left if everything that can be named were
 // there, and gives each chosen effect the shape that fits best beside the others. It takes an effect that

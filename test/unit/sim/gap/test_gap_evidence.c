@@ -6,16 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-static int along(gap_rows_t *g, const char *effect, int channel, double sure) {
-  const int i = gap_rows_candidate(g, effect);
-  for (int k = 0; k < g->candidate[i].n; k++) {
-    double *const x = gap_rows_column(g, i, k, channel + k);
-    gap_rows_white(g, x);
-    for (int r = 0; r < GAP_ROWS; r++) x[r] *= sure / sqrt(GAP_ROWS);
-  }
-  return i;
-}
-
 // log of the integral of N(b; 0, 1/p) exp(h b - F b^2 / 2), twice its positive half where it has a sign.
 static double by_integral(double F, double h, double p, bool positive) {
   double sum = 0.0;
@@ -57,8 +47,8 @@ TEST(gap_information_holds_what_feedback_makes_with_its_correlations) {
   why_t why;
   information_t f;
   gap_rows_make(&g, 21);
-  (void)along(&g, "rotor_drag", CH_FX, 200.0);
-  (void)along(&g, "flapping", CH_FY, 200.0);
+  (void)gap_rows_along(&g, "rotor_drag", CH_FX, 200.0);
+  (void)gap_rows_along(&g, "flapping", CH_FY, 200.0);
   // Two nominal flights: half of each together, then the first alone.
   gap_rows_nominal(&g, 2, 1e8, (const double[]){0.5, 0.5, 0.3, 0.0});
   gap_rows_open(&g, 0, NULL);
@@ -80,7 +70,7 @@ TEST(gap_information_widens_by_misfit_and_by_slow_noise) {
     information_t f;
     ROW("%s", slow ? "sign of the residual by block" : "white");
     gap_rows_make(&g, 22);
-    const int of = along(&g, "rotor_drag", CH_FX, 1000.0);
+    const int of = gap_rows_along(&g, "rotor_drag", CH_FX, 1000.0);
     // A part of the column comes and goes from block to block, as noise that is no noise of rows.
     const double *const x = gap_rows_column(&g, of, 0, CH_FX);
     for (int i = 0; i < GAP_ROWS && slow; i++) g.residual[CH_FX][i] += (i / 50 % 2 ? 0.3 : -0.3) * x[i];
@@ -105,7 +95,7 @@ TEST(gap_information_knows_one_misfit_of_an_effect_however_many_its_forms) {
     information_t f;
     ROW("%d", forms);
     gap_rows_make(&g, 29);
-    const int first = along(&g, "ground", CH_FZ, 2000.0);
+    const int first = gap_rows_along(&g, "ground", CH_FZ, 2000.0);
     for (int k = 1; k < forms; k++) {
       double *const x = gap_rows_column(&g, gap_rows_candidate(&g, "ground"), 0, CH_FZ);
       for (int i = 0; i < GAP_ROWS; i++) x[i] = gap_rows_column(&g, first, 0, CH_FZ)[i];
@@ -134,7 +124,7 @@ TEST(gap_information_holds_little_of_an_inertia_in_slow_rows_and_of_lateness) {
     ROW("%s at %.0f Hz", row[i].name, row[i].rate_Hz);
     gap_rows_make(&g, 26);
     g.flight.rate_Hz = row[i].rate_Hz;
-    const int of = along(&g, row[i].name, CH_WX, 2000.0);
+    const int of = gap_rows_along(&g, row[i].name, CH_WX, 2000.0);
     gap_rows_nominal(&g, 0, 0.0, NULL);
     gap_rows_open(&g, 0, NULL);
     if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
@@ -158,8 +148,8 @@ TEST(gap_information_takes_of_another_pilot_s_feedback_only_how_large_it_gets) {
     information_t f;
     ROW("%s", row[i].name[0]);
     gap_rows_make(&g, 31);
-    (void)along(&g, row[i].name[0], CH_WZ, 2000.0);
-    (void)along(&g, row[i].name[1], CH_FY, 2000.0);
+    (void)gap_rows_along(&g, row[i].name[0], CH_WZ, 2000.0);
+    (void)gap_rows_along(&g, row[i].name[1], CH_FY, 2000.0);
     gap_rows_nominal(&g, 2, 1e8, (const double[]){2.0, -1.0, 2.0, -1.0});
     gap_rows_open(&g, 0, NULL);
     if (!CHECK_OK(information_make(&f, &g.round, &why))) return;
@@ -179,7 +169,7 @@ TEST(gap_evidence_weighs_four_scales_and_how_rare_an_effect_is) {
   evidence_t e;
   information_t f;
   gap_rows_make(&g, 27);
-  const int of = along(&g, "rotor_drag", CH_FX, 20.0), column = 0;
+  const int of = gap_rows_along(&g, "rotor_drag", CH_FX, 20.0), column = 0;
   gap_rows_add(&g, of, 0, 3.0);
   gap_rows_nominal(&g, 0, 0.0, NULL);
   gap_rows_open(&g, 0, NULL);
@@ -207,7 +197,7 @@ TEST(gap_evidence_extends_the_sixteen_best_sets_of_a_size) {
   evidence_t e;
   int of_size[EVIDENCE_DEPTH + 1] = {0};
   gap_rows_make(&g, 28);
-  for (int k = 0; k < 9; k++) (void)along(&g, name[k], CH_FX + k % 3, 20.0);
+  for (int k = 0; k < 9; k++) (void)gap_rows_along(&g, name[k], CH_FX + k % 3, 20.0);
   gap_rows_nominal(&g, 0, 0.0, NULL);
   gap_rows_open(&g, 0, NULL);
   if (!CHECK_OK(evidence_make(&e, &g.round, &why))) return;
@@ -231,7 +221,7 @@ TEST(gap_evidence_speaks_for_an_effect_by_the_sizes_that_are_shown) {
     evidence_t e;
     ROW("%s", row[i].what);
     gap_rows_make(&g, 24);
-    const int of = along(&g, "accel_bias", CH_FX, 20.0);
+    const int of = gap_rows_along(&g, "accel_bias", CH_FX, 20.0);
     for (int k = 0; k < row[i].shown; k++) gap_rows_add(&g, of, k, 3.0);
     for (int k = row[i].shown; k < 3; k++)
       memset(gap_rows_column(&g, of, k, CH_FX + k), 0, GAP_ROWS * sizeof(double));
@@ -264,7 +254,8 @@ TEST(gap_evidence_finds_a_set_and_leaves_the_rest_out) {
     ROW("%s", row[i].what);
     gap_rows_make(&g, 23);
     static const char *const name[] = {"rotor_drag", "flapping", "climb_inflow", "translational_lift"};
-    for (int k = 0; k < 4; k++) gap_rows_add(&g, along(&g, name[k], CH_FX + k, 20.0), 0, row[i].size[k]);
+    for (int k = 0; k < 4; k++)
+      gap_rows_add(&g, gap_rows_along(&g, name[k], CH_FX + k, 20.0), 0, row[i].size[k]);
     g.candidate[2].least[0] = -row[i].in_file;
     gap_rows_nominal(&g, 0, 0.0, NULL);
     gap_rows_open(&g, 0, NULL);
@@ -286,7 +277,7 @@ TEST(gap_evidence_of_alike_effects_is_shared) {
   why_t why;
   evidence_t e;
   gap_rows_make(&g, 24);
-  const int own = along(&g, "rotor_drag", CH_FX, 30.0), twin = gap_rows_candidate(&g, "flapping");
+  const int own = gap_rows_along(&g, "rotor_drag", CH_FX, 30.0), twin = gap_rows_candidate(&g, "flapping");
   for (int i = 0; i < GAP_ROWS; i++)
     gap_rows_column(&g, twin, 0, CH_FX)[i] = gap_rows_column(&g, own, 0, CH_FX)[i];
   gap_rows_add(&g, own, 0, 1.0);
@@ -308,7 +299,7 @@ TEST(gap_evidence_speaks_for_an_effect_in_any_of_its_forms) {
     why_t why;
     double odds[NAMED_MAX];
     gap_rows_make(&g, 31);
-    const int first = along(&g, "ground", CH_FZ, 20.0);
+    const int first = gap_rows_along(&g, "ground", CH_FZ, 20.0);
     gap_rows_add(&g, first, 0, 0.5);
     for (int k = 0; k < 4 * many; k++) {
       double *const x = gap_rows_column(&g, gap_rows_candidate(&g, "ground"), 0, CH_FZ);
@@ -370,7 +361,8 @@ TEST(gap_evidence_does_not_speak_for_what_feedback_makes) {
     double odds[NAMED_MAX];
     ROW("%s", row[i].what);
     gap_rows_make(&g, 25);
-    const int of = along(&g, "rotor_drag", CH_FX, 100.0), other = along(&g, "flapping", CH_FY, 100.0);
+    const int of = gap_rows_along(&g, "rotor_drag", CH_FX, 100.0),
+              other = gap_rows_along(&g, "flapping", CH_FY, 100.0);
     gap_rows_add(&g, of, 0, 0.5);
     gap_rows_add(&g, other, 0, 1.0);
     const double b = row[i].feedback;

@@ -6,15 +6,6 @@
 
 #include <math.h>
 
-// One candidate along a channel, so strong that a typical one has `sure` standard errors.
-static int along(gap_rows_t *g, const char *effect, int channel, double sure) {
-  const int i = gap_rows_candidate(g, effect);
-  double *const x = gap_rows_column(g, i, 0, channel);
-  gap_rows_white(g, x);
-  for (int k = 0; k < GAP_ROWS; k++) x[k] *= sure / sqrt(GAP_ROWS);
-  return i;
-}
-
 // Over what is typical, of a column that has so many standard errors there. Beside two of these: the Wald
 // test's bound, 3.9 of them for one of three candidates in 23 blocks; the gain, 0.004 of what 7200 rows
 // leave; what another one that gives all but 2e-4 of it could not, the root of 36 over these; and the least
@@ -36,8 +27,8 @@ TEST(gap_tells_the_least_size_that_would_have_been_seen) {
     why_t why;
     ROW("%s", row[i].what);
     gap_rows_make(&g, 13);
-    const int of = along(&g, row[i].effect, CH_FX, row[i].sure);
-    const int other = along(&g, "flapping", CH_FX, row[i].sure);
+    const int of = gap_rows_along(&g, row[i].effect, CH_FX, row[i].sure);
+    const int other = gap_rows_along(&g, "flapping", CH_FX, row[i].sure);
     double *const x = gap_rows_column(&g, of, 0, CH_FX), *const y = gap_rows_column(&g, other, 0, CH_FX);
     for (int k = 0; k < GAP_ROWS && row[i].alike; k++) y[k] = x[k] + 0.0141 * y[k];
     double made[2 * NOMINAL_FLIGHTS] = {0.0};
@@ -67,7 +58,8 @@ TEST(gap_tells_from_which_size_on_the_rows_speak_for_an_effect) {
     why_t why;
     ROW("%s", row[i].what);
     gap_rows_make(&g, 26);
-    const int of = along(&g, "mass", CH_FX, 20.0), beside = along(&g, "flapping", CH_FY, 20.0);
+    const int of = gap_rows_along(&g, "mass", CH_FX, 20.0),
+              beside = gap_rows_along(&g, "flapping", CH_FY, 20.0);
     gap_rows_nominal(&g, 0, 0.0, NULL);
     gap_rows_open(&g, 1, row[i].chosen ? &of : &beside);
     if (!CHECK_OK(evidence_least(&g.round, least, &why))) return;
